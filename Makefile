@@ -1,0 +1,49 @@
+# `make help` lists the targets. Set-up happens once, and again when requirements.lock or pyproject.toml change.
+
+PYTHON ?= python3
+CORES ?= all
+CONFIG ?= config/paper.yaml
+BIN := .venv/bin
+READY := .venv/.ready
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
+export CONFIG CORES
+
+.DEFAULT_GOAL := paper
+.PHONY: paper study test setup docs clean help
+
+paper: $(READY)  ## set up, then the paper's study to figures and report
+	@$(BIN)/snakemake --configfile config/paper.yaml --cores "$$CORES"
+	@echo "The paper's study is up to date: results/paper/report.html"
+
+study: $(READY)  ## check a study and run it: make study CONFIG=config/mine.yaml CORES=2
+	@$(BIN)/subslide check "$$CONFIG"
+	@$(BIN)/snakemake --configfile "$$CONFIG" --cores "$$CORES"
+
+test: $(READY)  ## set up, then lint, format and every test
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/snakefmt --check Snakefile workflow
+	$(BIN)/subslide warm radial:1:float64 quarter:1:float64 plane:1:float64 one-layer:1:float64
+	$(BIN)/python -m pytest -n auto --dist loadgroup
+
+setup: $(READY)  ## set up alone: .venv with the locked packages and this one
+
+$(READY): requirements.lock pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+		{ echo "Python 3.11 or newer is needed: make PYTHON=/path/to/python3" >&2; exit 1; }
+	$(PYTHON) -m venv --clear .venv
+	@# setuptools first: what has no wheel is built with it, and nothing outside the lock is downloaded
+	@sed -n '/^setuptools==/,/[^\\]$$/p' requirements.lock > .venv/build.lock
+	$(PIP) --require-hashes -r .venv/build.lock
+	$(PIP) --require-hashes --no-build-isolation --use-pep517 -r requirements.lock
+	$(PIP) --no-deps --no-build-isolation --editable .
+	@touch $@
+
+docs: $(READY)  ## write the pages that follow from the code: config/README.md, docs/tables.md
+	$(BIN)/subslide docs
+
+clean:  ## remove the virtual environment and caches, but no results
+	rm -rf .venv .pytest_cache .ruff_cache .hypothesis src/*.egg-info
+
+help:  ## list the targets
+	@sed -n 's/^\([a-z][a-z-]*\):.*## \(.*\)/make \1@\2/p' $(MAKEFILE_LIST) | awk -F@ '{printf "%-14s %s\n", $$1, $$2}'
