@@ -1,0 +1,47 @@
+"""Time: the next step, and why a loop of steps ended."""
+
+from .jit import inlined
+
+RUNNING, REACHED, AT_REST, FRONT_AT_EDGE, NOT_FINITE, NEGATIVE, COLLAPSED, FULL = range(8)
+
+# Indices into the float64 array `clock`.
+NOW, STOP, REST_FROM, REST_SINCE = range(4)
+
+# Indices into the int64 array `counters`.
+SAMPLES, OUTCOME = range(2)
+
+# Columns of a sample.
+TIME, FRONT, ETA, ETA_OUTSIDE, GRAINS, WATER, ENERGY, COMPLEX = 0, 1, 4, 5, 6, 7, 8, 9
+COLUMNS = 10
+
+SMALLEST_STEP = 1e-6
+"""In units of dx / sqrt(g H2): no wave of a run that can finish is a million times faster than sqrt(g H2)."""
+
+
+@inlined
+def next_step(now, stop, stable):
+    """Return the step to take: `stable`, less when `stop` is near, so that no step before it is tiny."""
+    left = stop - now
+    if left <= stable:
+        return left
+    return min(stable, 0.5 * left) if left < 2.0 * stable else stable
+
+
+@inlined
+def outcome(clock, finite, shallowest, fastest_grain, at_edge, full):
+    """Return why the loop ends now, or RUNNING; keeps REST_SINCE, the time since which no grain has moved."""
+    if not finite:
+        return NOT_FINITE
+    if shallowest < 0.0:
+        return NEGATIVE
+    if fastest_grain > 0.0:
+        clock[REST_SINCE] = -1.0
+    elif clock[REST_SINCE] < 0.0:
+        clock[REST_SINCE] = clock[NOW]
+    if at_edge:
+        return FRONT_AT_EDGE
+    if fastest_grain == 0.0 and clock[NOW] >= clock[REST_FROM]:
+        return AT_REST
+    if clock[NOW] >= clock[STOP]:
+        return REACHED
+    return FULL if full else RUNNING

@@ -1,0 +1,52 @@
+"""Coulomb friction and the states at rest that it holds (Eq. 3 and Theorem 3.1 of the paper)."""
+
+import math
+
+from .jit import inlined
+
+
+@inlined
+def drive(r, d_eta, d_h2):
+    """Return d(r h1 + h2), the jump that pushes the grains, exactly zero under a flat surface without grains."""
+    return r * d_eta + (type(r)(1) - r) * d_h2
+
+
+@inlined
+def holds(reach, bound, speed, push):
+    """Return whether friction can stop and then hold grains: within this step, and against the driving force.
+
+    `speed` is compared with `reach` = dt (1-r) mu (speeds, not momenta: a dry cell counts as still), the jump |d(r h1
+    + h2)| with `bound` = (1-r) mu dx. An edge is stuck when this is true of both its cells; a cell is stopped when
+    all its edges are stuck, so that fronts that outrun friction never freeze. Without it a first-order pile creeps
+    for ever, and at second order single cells keep trembling.
+
+    Deviation from the rest condition under Eq. (8) and in Theorem 3.1, garbled in print: the length of the gradient
+    is compared with mu, under a flat surface |grad h2| <= mu.
+    """
+    return speed <= reach and push <= bound
+
+
+@inlined
+def coulomb(reach, speed, held):
+    """Return the factor that Coulomb friction leaves of a velocity: max(0, 1 - dt g (1-r) mu / |u|).
+
+    Deviation from the paper's step, which compares m/s with m/s2 and never lets the pile stop.
+    """
+    real = type(speed)
+    moving = speed > reach and held == real(0)
+    return real(1) - reach / (speed if moving else real(1)) if moving else real(0)
+
+
+@inlined
+def velocity(q, h, thin):
+    """Return q/h, smoothly cut off below the depth `thin` (a desingularised quotient)."""
+    real = type(q)
+    square = h * h
+    total = square + max(square, thin * thin)
+    return q * (h + h) / (total if total > real(0) else real(1))
+
+
+@inlined
+def norm(x, y):
+    """Return the length of a vector in the plane."""
+    return math.sqrt(x * x + y * y)

@@ -1,0 +1,33 @@
+"""Depths stay non-negative by limiting what leaves a cell, never by clipping (clipping makes mass)."""
+
+from .jit import inlined
+
+
+@inlined
+def share(depth, outflow, margin):
+    """Return the fraction of its outflow that a cell can feed within a step (draining time, Bollermann et al. 2011).
+
+    `outflow` is the depth that would leave. IFCP beside a thin cell can drain it thousands of times faster than any
+    CFL number allows; `margin` (a small fraction of the depth, left behind) covers round-off.
+    """
+    real = type(depth)
+    available = depth * (real(1) - margin)
+    return available / outflow if outflow > available else real(1)
+
+
+@inlined
+def donor(flux, before, after):
+    """Return the value on the side that a flux comes from.
+
+    Deviation from Eq. (13), which prints the sides the other way round (and h_{2,i} twice): S* comes from the mass
+    flux out of K_i, so S* > 0 takes K_i.
+    As an argument each is loaded whatever the flux; a load inside a condition would keep the loop scalar.
+    """
+    return before if flux > type(flux)(0) else after
+
+
+@inlined
+def limit(flux, keep_before, keep_after):
+    """Return the fraction that the cell a flux comes from can feed; 1 for no flux, which no side may claim."""
+    real = type(flux)
+    return keep_before if flux > real(0) else (keep_after if flux < real(0) else real(1))

@@ -1,0 +1,12 @@
+"""HLL in its path-conservative form (Harten, Lax, van Leer 1983; the paper's coefficients for wet/dry edges)."""
+
+from ..jit import inlined
+
+
+@inlined
+def hll(s_l, s_r):
+    """Return alpha0..2 of the line through (S_L, |S_L|) and (S_R, |S_R|)."""
+    real = type(s_l)
+    width = s_r - s_l
+    scale = real(1) / (width if width > real(0) else real(1))
+    return (s_r * abs(s_l) - s_l * abs(s_r)) * scale, (abs(s_r) - abs(s_l)) * scale, real(0)

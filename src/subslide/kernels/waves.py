@@ -1,0 +1,105 @@
+"""Wave speeds of the two-layer system, exact and without failure.
+
+Variables are scaled (g = 1), so the squared speed of a layer alone is its depth. The speeds x solve the quartic
+((x - u1)^2 - h1) ((x - u2)^2 - h2) = r h1 h2, the characteristic polynomial of A_ij in Eq. (8) of the paper.
+"""
+
+import math
+
+from .jit import inlined
+
+NEWTON_STEPS = 3
+"""Held by tests/numerics/test_waves.py against numpy's eigenvalues."""
+
+
+@inlined
+def newton(x, u1, h1, u2, h2, k):
+    """Return one Newton step from `x` on ((x-u1)^2-h1)((x-u2)^2-h2) - k; stays where the slope is zero."""
+    real = type(x)
+    d1 = x - u1
+    d2 = x - u2
+    a = d1 * d1 - h1
+    b = d2 * d2 - h2
+    slope = d1 * b + d2 * a
+    step = (a * b - k) / (slope + slope if slope != real(0) else real(1))
+    return x - (step if slope != real(0) else real(0))
+
+
+@inlined
+def outer_speeds(h1, u1, h2, u2, r):
+    """Return the slowest and the fastest of the four wave speeds, always real.
+
+    The start is exact for equal velocities and of second order in u1 - u2: the barotropic speed about the mean
+    velocity weighted by how much each layer carries of that wave. It is held between the layers' own speeds (a
+    bound from inside; beyond it the quartic is convex and rising, so Newton's method cannot fail) and
+    max_k(u_k + sqrt(h_k (1 + sqrt r))) (a bound from outside).
+    """
+    real = type(h1)
+    half = real(0.5)
+    spread = math.sqrt((h1 - h2) * (h1 - h2) + real(4) * r * h1 * h2)
+    c = math.sqrt(half * (h1 + h2 + spread))
+    w1 = half + half * (h1 - h2) / (spread if spread > real(0) else real(1))
+    mean = w1 * u1 + (real(1) - w1) * u2
+    c1 = math.sqrt(h1)
+    c2 = math.sqrt(h2)
+    stretch = math.sqrt(real(1) + math.sqrt(r))
+    k = r * h1 * h2
+    fast_limit = max(u1 + stretch * c1, u2 + stretch * c2)
+    slow_limit = min(u1 - stretch * c1, u2 - stretch * c2)
+    fast = max(mean + c, max(u1 + c1, u2 + c2))
+    slow = min(mean - c, min(u1 - c1, u2 - c2))
+    fast = min(newton(fast, u1, h1, u2, h2, k), fast_limit)
+    slow = max(newton(slow, u1, h1, u2, h2, k), slow_limit)
+    for _ in range(NEWTON_STEPS - 1):
+        fast = newton(fast, u1, h1, u2, h2, k)
+        slow = newton(slow, u1, h1, u2, h2, k)
+    return slow, fast
+
+
+@inlined
+def grain_speeds(h2, u2):
+    """Return the two wave speeds of grains alone."""
+    c = math.sqrt(h2)
+    return u2 - c, u2 + c
+
+
+@inlined
+def inner_speeds(h1, u1, h2, u2, r, slow, fast):
+    """Return the centre and half-width squared of the inner pair, from the quartic's coefficients.
+
+    The pair is centre -+ sqrt(half-width squared); a negative square means that the pair is complex. The verdict on
+    hyperbolicity is `discriminant`'s, which needs no iteration.
+    """
+    real = type(h1)
+    outer_sum = slow + fast
+    centre = u1 + u2 - real(0.5) * outer_sum
+    pairs = u1 * u1 - h1 + u2 * u2 - h2 + real(4) * u1 * u2
+    product = pairs - slow * fast - (centre + centre) * outer_sum
+    return centre, centre * centre - product
+
+
+@inlined
+def discriminant(h1, h2, shear_squared, r):
+    """Return the quartic's discriminant, scaled to depths and shear of order 1: negative where two speeds are complex.
+
+    `shear_squared` is (u1 - u2)^2 along the normal. The outer pair is always real, so the sign decides; the quartic
+    is x^4 + p x^2 + q x + s in the frame of the mean velocity.
+    """
+    real = type(h1)
+    total = h1 + h2 + shear_squared
+    scale = real(1) / (total if total > real(0) else real(1))
+    a = h1 * scale
+    b = h2 * scale
+    d2 = real(0.25) * shear_squared * scale
+    p = -(d2 + d2) - a - b
+    q2 = real(4) * d2 * (b - a) * (b - a)
+    s = (d2 - a) * (d2 - b) - r * a * b
+    p2 = p * p
+    return (
+        real(16) * p2 * p2 * s
+        - real(4) * p2 * p * q2
+        - real(128) * p2 * s * s
+        + real(144) * p * q2 * s
+        - real(27) * q2 * q2
+        + real(256) * s * s * s
+    )
