@@ -1,0 +1,1 @@
+"""Formulas that judge the solver: one exact solution a file."""

@@ -1,0 +1,86 @@
+"""The naming table: every quantity of a record, its symbol, dimensions, unit and meaning.
+
+Records, tables, figures and documentation take names and units from here and from nowhere else.
+"""
+
+from typing import NamedTuple
+
+FRONT_THRESHOLDS = (0.01, 0.03, 0.05)
+"""Depths that define the front, as fractions of the column's height H2; the first is the default."""
+
+
+class Field(NamedTuple):
+    """One quantity: symbol in text, NetCDF dimensions, unit (UDUNITS) and long name."""
+
+    symbol: str
+    dims: tuple[str, ...]
+    unit: str
+    long_name: str
+
+
+STEP = ("run", "step")
+PROFILE = ("run", "snapshot", "x")
+
+PARAMETERS = {
+    "a_H": Field("a_H", ("run",), "1", "water depth above the column over the column's height, H1/H2"),
+    "a_2": Field("a_2", ("run",), "1", "aspect ratio of the column, H2/R"),
+    "r": Field("r", ("run",), "1", "density of water over density of grains"),
+    "delta": Field("δ", ("run",), "degree", "Coulomb friction angle"),
+    "radius": Field("R", ("run",), "m", "initial radius of the column"),
+}
+
+SERIES = {
+    "x_front": Field(
+        "x_front",
+        ("run", "front_threshold", "step"),
+        "m",
+        "distance from the axis to the farthest point where h2 exceeds the threshold",
+    ),
+    "max_abs_eta": Field("max|η|", STEP, "m", "largest displacement of the water surface in the initial box"),
+    "max_abs_eta_outside": Field(
+        "max|η| (x > R)", STEP, "m", "largest displacement of the water surface beyond R in the initial box"
+    ),
+    "sediment_volume": Field("V2", STEP, "m3", "volume of grains in the box"),
+    "water_volume": Field("V1", STEP, "m3", "volume of water in the box"),
+    "energy": Field(
+        "E", STEP, "m5 s-2", "mechanical energy in the box over the density of grains, relative to the bed"
+    ),
+    "nonhyperbolic_cells": Field("n_c", STEP, "1", "cells where the two layers' wave speeds are complex"),
+}
+
+PROFILES = {
+    "h2": Field("h2", PROFILE, "m", "depth of grains along the x axis"),
+    "eta": Field("η", PROFILE, "m", "displacement of the water surface along the x axis"),
+    "h2_diagonal": Field("h2", PROFILE, "m", "depth of grains along the diagonal, at distance sqrt(2) x"),
+}
+
+FIELDS_2D = {
+    "h2_field": Field("h2", ("run", "snapshot", "y", "x"), "m", "depth of grains"),
+    "eta_field": Field("η", ("run", "snapshot", "y", "x"), "m", "displacement of the water surface"),
+}
+
+SCALARS = {
+    "L_f": Field("L_f", ("run", "front_threshold"), "m", "final length of the deposit from the axis"),
+    "time_at_rest": Field("t_rest", ("run",), "s", "time at which every grain is at rest"),
+    "box_half_width": Field("L", ("run",), "m", "half-width of the computational box"),
+    "steps": Field("n", ("run",), "1", "number of time steps"),
+    "wall_seconds": Field("", ("run",), "s", "wall time of the time loop alone"),
+}
+
+COORDINATES = {
+    "front_threshold": Field("", ("front_threshold",), "1", "depth that defines the front over H2"),
+    "x": Field("x", ("x",), "m", "distance of cell centre from the axis of the column along x"),
+    "y": Field("y", ("y",), "m", "distance of cell centre from the axis of the column along y"),
+    "time": Field("t", STEP, "s", "elapsed time since release"),
+    "snapshot_time": Field("t", ("run", "snapshot"), "s", "elapsed time of the profile"),
+}
+
+STATUSES = {
+    "ok": "the run reached its end",
+    "not_at_rest": "the cap in scaled time came before the grains were at rest",
+    "left_domain": "the front reached the edge of the largest box",
+    "diverged": "a value is not finite",
+    "negative_depth": "a depth fell below zero by more than round-off",
+    "step_collapse": "the stable time step became too small to finish",
+    "hyperbolicity_lost": "wave speeds became complex and the treatment is to stop",
+}

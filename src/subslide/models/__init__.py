@@ -1,0 +1,1 @@
+"""Models: a grid, its boundaries and how a step sweeps it."""

@@ -1,0 +1,75 @@
+"""From a point to a model ready to run."""
+
+import math
+
+import numpy as np
+
+from .. import scenes
+from ..kernels.arrays import Scene
+from ..kernels.viscosity import SCHEMES
+from .axial import Axial
+from .grid import make_grid
+from .plane import Plane
+
+AXIAL = ("radial", "one-layer", "line")
+
+
+def resolve_model(point):
+    """Return the model of a point: its own, or for `auto` the cheapest that is exact for its scene."""
+    if point.model != "auto":
+        return point.model
+    return {"round": "radial", "quarter": "quarter", "line": "line"}.get(
+        scenes.load(point.scene).SYMMETRY, "plane"
+    )
+
+
+def build(point, model, box, watched, dry_depth):
+    """Return the model in its initial state.
+
+    box, watched: cells from the axis to the end of the box and of the region where the surface is watched.
+    """
+    real = np.dtype(point.dtype).type
+    dx = 0.6 / point.cells / 0.0705
+    grid = make_grid(model, dx, box)
+    state = scenes.load(point.scene).initial(grid, point)
+    alone = model == "one-layer"
+    scene = Scene(
+        layers=1 if alone else 2,
+        scheme=SCHEMES[point.scheme],
+        order=point.order,
+        r=real(0 if alone else point.r),
+        friction=real(math.tan(math.radians(point.delta)) / point.a_2),
+        dx=real(dx),
+        cfl=real(point.cfl),
+        dry_depth=real(dry_depth),
+    )
+    level = real(1.0 + point.a_H)
+    shape = (len(grid.centres),) * (1 if model in AXIAL else 2)
+    flat = np.ptp(state.h1 + state.h2) == 0
+    state = scenes.State(*(np.broadcast_to(np.asarray(values, real), shape) for values in state))
+    if flat:  # flat to the bit in the working precision too
+        h1, h2 = scenes.level_off(state.h2, level)
+        state = state._replace(h1=h1, h2=h2)
+    closed = point.boundary == "wall"
+    if model in AXIAL:
+        round_scene = model != "line"
+        return Axial(
+            model,
+            scene,
+            (0 * state.h1 if alone else state.h1, state.u1, state.h2, state.u2),
+            grid,
+            radial=round_scene,
+            walls=(round_scene or closed, closed),
+            level=real(1) if alone else level,
+            watched=watched,
+        )
+    mirrored = model == "quarter"
+    return Plane(
+        model,
+        scene,
+        (state.h1, state.u1, state.v1, state.h2, state.u2, state.v2),
+        grid,
+        walls=(mirrored or closed, closed, mirrored or closed, closed),
+        level=level,
+        watched=watched,
+    )

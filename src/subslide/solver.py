@@ -1,0 +1,217 @@
+"""One run: a point in, a `Run` out. The time loop is compiled; here are its ends, snapshots and failures."""
+
+import math
+import time
+from dataclasses import dataclass
+
+import numba
+import numpy as np
+
+from .fields import FRONT_THRESHOLDS, STATUSES
+from .kernels import clock as k
+from .models.build import build, resolve_model
+from .points import Point
+
+DRY_DEPTH = 1e-6
+"""Over H2: below it a layer counts as dry (HLL instead of IFCP) and velocities are cut off smoothly."""
+
+REST_CAP = 60.0
+"""Cap on runs to rest, in R / sqrt(g H2 (1-r)): the paper's slowest column rests at 5, a_2 = 1.5, delta = 20 at 9."""
+
+GROWTH = 1.5
+LARGEST_BOX = 4.0
+"""The box grows by GROWTH while the front reaches its edge, up to LARGEST_BOX times the paper's."""
+
+PAPER_TIMES = (0.0, 0.08, 0.16, 0.24, 0.54)
+"""s, for the paper's column; snapshots of another column are taken at these times sqrt(R / 0.0705 m)."""
+
+CHUNK = 512
+"""Samples between two looks at the clock on the wall."""
+
+ENDED = {
+    k.AT_REST: "ok",
+    k.FRONT_AT_EDGE: "left_domain",
+    k.NOT_FINITE: "diverged",
+    k.NEGATIVE: "negative_depth",
+    k.COLLAPSED: "step_collapse",
+}
+assert set(ENDED.values()) <= set(STATUSES)
+
+
+@dataclass
+class Run:
+    """What a point's run gave: float64 arrays in SI units, sample s of each series at `time[s]`.
+
+    `x_front` is (thresholds, samples), profiles (snapshots, x), fields (snapshots, y, x) in float32. What a model does
+    not have (water of one layer, the diagonal of a radius) is NaN or None.
+    """
+
+    point: Point
+    model: str
+    dx: float
+    x: np.ndarray
+    time: np.ndarray
+    x_front: np.ndarray
+    max_abs_eta: np.ndarray
+    max_abs_eta_outside: np.ndarray
+    sediment_volume: np.ndarray
+    water_volume: np.ndarray
+    energy: np.ndarray
+    nonhyperbolic_cells: np.ndarray
+    snapshot_time: np.ndarray
+    h2: np.ndarray
+    eta: np.ndarray
+    h2_diagonal: np.ndarray | None
+    h2_field: np.ndarray | None
+    eta_field: np.ndarray | None
+    L_f: np.ndarray
+    status: str
+    status_detail: str
+    steps: int
+    wall_seconds: float
+    time_at_rest: float
+    box_half_width: float
+
+
+def solve(point, threads=1, progress=None):
+    """Return the `Run` of a point; a numerical failure is a status, never an exception.
+
+    threads: cores for one plane run (no result depends on it). progress: called with the fraction of the run's time.
+    """
+    numba.set_num_threads(max(1, min(threads, numba.config.NUMBA_NUM_THREADS)))
+    half_cells = -(-point.cells // 2)
+    box = half_cells
+    while True:
+        run = attempt(point, resolve_model(point), box, half_cells, progress)
+        grown = math.ceil(box * GROWTH)
+        if run.status != "left_domain" or grown > LARGEST_BOX * half_cells:
+            return run
+        box = grown
+
+
+def snapshot_times(point):
+    """Return the times (s) of the point's snapshots, in order."""
+    if point.snapshot_times is None:
+        return tuple(t * math.sqrt(point.radius / 0.0705) for t in PAPER_TIMES)
+    return tuple(sorted(point.snapshot_times))
+
+
+def attempt(point, model_name, box, watched, progress):
+    """Return the run in a box of `box` cells from the axis, its surface watched within `watched` cells."""
+    time_scale = math.sqrt(point.radius / (point.g * point.a_2))
+    cap = REST_CAP / math.sqrt(1.0 - point.r) * time_scale
+    end = cap if point.t_end is None else point.t_end
+    times = [t for t in snapshot_times(point) if t <= end]
+    model = build(point, model_name, box, watched, DRY_DEPTH)
+    clock = np.array([0.0, 0.0, math.inf, -1.0])
+    if point.t_end is None:
+        clock[k.REST_FROM] = max(times[-1] / time_scale if times else 0.0, np.nextafter(0.0, 1.0))
+    warm_up(model)
+    chunks, snapshots, wall = [], [], 0.0
+    for stop in sorted({*times, end}):
+        clock[k.STOP] = stop / time_scale
+        outcome, seconds = advance_to(
+            model, clock, chunks, lambda now: progress and progress(now * time_scale / end)
+        )
+        wall += seconds
+        if stop in times and clock[k.NOW] >= clock[k.STOP]:
+            snapshots.append((stop, model.profile(), model.fields() if point.fields else None))
+        if outcome != k.REACHED:
+            break
+    snapshots.append((clock[k.NOW] * time_scale, model.profile(), model.fields() if point.fields else None))
+    series = np.concatenate(chunks)
+    status = ENDED.get(outcome, "ok" if point.t_end is not None else "not_at_rest")
+    detail = "" if status == "ok" else describe(status, model, series, time_scale)
+    return make_run(point, model, series, snapshots, status, detail, wall, clock)
+
+
+def thresholds(model):
+    """Return the front's thresholds in the working precision."""
+    return tuple(model.scene.r.dtype.type(value) for value in FRONT_THRESHOLDS)
+
+
+def warm_up(model):
+    """Compile the time loop (or load it) with a segment of no length, which changes nothing but derived values."""
+    model.advance(
+        thresholds(model), np.array([0.0, 0.0, math.inf, -1.0]), np.empty((2, k.COLUMNS)), np.zeros(2, int)
+    )
+
+
+def advance_to(model, clock, chunks, look):
+    """Return why the loop ended and its seconds; samples are appended to `chunks`, one for each instant.
+
+    A loop that starts again samples its first instant again, so the last sample before it is dropped.
+    """
+    wall = 0.0
+    while True:
+        samples = np.empty((CHUNK, k.COLUMNS))
+        counters = np.zeros(2, np.int64)
+        started = time.perf_counter()
+        model.advance(thresholds(model), clock, samples, counters)
+        wall += time.perf_counter() - started
+        if chunks:
+            chunks[-1] = chunks[-1][:-1]
+        chunks.append(samples[: counters[k.SAMPLES]])
+        look(clock[k.NOW])
+        if counters[k.OUTCOME] != k.FULL:
+            return int(counters[k.OUTCOME]), wall
+
+
+def describe(status, model, series, time_scale):
+    """Return one line on a run that did not end well: what, when, after how many steps, and where."""
+    text = f"{STATUSES[status]}; t = {series[-1, k.TIME] * time_scale:.6g} s, step {len(series) - 1}"
+    suspect = model.suspect()
+    return (
+        f"{text}, {suspect}"
+        if suspect and status in ("diverged", "negative_depth", "step_collapse")
+        else text
+    )
+
+
+def make_run(point, model, series, snapshots, status, detail, wall, clock):
+    """Return the `Run` of a finished loop, in SI units."""
+    R, H2 = point.radius, point.a_2 * point.radius
+    time_scale = math.sqrt(R / (point.g * point.a_2))
+    volume = model.copies * H2 * R**model.dimensions
+    lonely = model.scene.layers == 1
+    column = series.T
+    nothing = np.full(len(series), np.nan)
+    profiles = [profile for _, profile, _ in snapshots]
+    whole = [fields for _, _, fields in snapshots]
+    front = column[k.FRONT : k.FRONT + len(FRONT_THRESHOLDS)] * R
+    final = status in ("ok", "not_at_rest")
+
+    def stack(values, name, kind=np.float64):
+        if values[0] is None or name not in values[0]:
+            return None
+        return (np.stack([value[name] for value in values]) * H2).astype(kind)
+
+    return Run(
+        point=point,
+        model=model.name,
+        dx=point.dx,
+        x=model.x * R,
+        time=column[k.TIME] * time_scale,
+        x_front=front,
+        max_abs_eta=nothing if lonely else column[k.ETA] * H2,
+        max_abs_eta_outside=nothing if lonely else column[k.ETA_OUTSIDE] * H2,
+        sediment_volume=column[k.GRAINS] * volume,
+        water_volume=nothing if lonely else column[k.WATER] * volume,
+        energy=column[k.ENERGY] * volume * H2 * point.g,
+        nonhyperbolic_cells=column[k.COMPLEX] * model.copies,
+        snapshot_time=np.array([t for t, _, _ in snapshots]),
+        h2=stack(profiles, "h2"),
+        eta=np.full((len(profiles), len(model.x)), np.nan) if lonely else stack(profiles, "eta"),
+        h2_diagonal=stack(profiles, "h2_diagonal"),
+        h2_field=stack(whole, "h2", np.float32),
+        eta_field=stack(whole, "eta", np.float32),
+        L_f=front[:, -1].copy() if final else np.full(len(FRONT_THRESHOLDS), np.nan),
+        status=status,
+        status_detail=detail,
+        steps=len(series) - 1,
+        wall_seconds=wall,
+        time_at_rest=float(
+            clock[k.REST_SINCE] * time_scale if clock[k.REST_SINCE] >= 0 and final else np.nan
+        ),
+        box_half_width=model.half_width * R,
+    )
