@@ -1,0 +1,194 @@
+"""The command line: `subslide run` for one collapse, and the verbs that the workflow's rules call."""
+
+import gc
+import os
+import sys
+from pathlib import Path
+
+import click
+
+import subslide
+from subslide import schema
+from subslide.points import RUN_KEYS
+from subslide.schema import ConfigError
+
+BAD_INPUT, FAULT, INTERRUPTED = 2, 1, 130
+
+
+class Verbs(click.Group):
+    """Group of commands that lists them in the order they were written, and names the nearest to a mistyped one."""
+
+    def list_commands(self, ctx):
+        return list(self.commands)
+
+    def resolve_command(self, ctx, args):
+        if args and args[0] not in self.commands:
+            hint = schema.closest(args[0], self.commands)
+            raise click.UsageError(
+                f"{args[0]}: there is no such command; allowed: {', '.join(self.commands)}{hint}"
+            )
+        return super().resolve_command(ctx, args)
+
+
+@click.group(cls=Verbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+@click.version_option(subslide.__version__, prog_name="subslide")
+def cli():
+    """Collapse of submerged granular columns: two-layer Coulomb runs, records, tables and figures."""
+
+
+def run_options(command):
+    """The command with one option for each key of a run; help texts come from the schema."""
+    for key in reversed(("numerics", *RUN_KEYS)):
+        about = schema.properties()[key]
+        flag = "--" + key.replace("_", "-")
+        default = about["default"]
+        if about.get("type") == "boolean":
+            option = click.option(f"{flag}/--no-{key}", key, default=None, help=_help(key))
+        else:
+            metavar = schema.metavar(key)
+            option = click.option(flag, key, metavar=metavar, help=f"{_help(key)}  [default: {default}]")
+        command = option(command)
+    return command
+
+
+def _help(key: str) -> str:
+    about = schema.properties()[key]
+    unit = f" [{schema.unit(key)}]" if schema.unit(key) else ""
+    choice = "" if "enum" in about or about.get("type") == "boolean" else f"; {schema.allowed(key)}"
+    return f"{about['description']}{unit}{choice}"
+
+
+@cli.command()
+@click.option(
+    "--config", metavar="FILE", help="YAML file of one point, with the keys of a study; options override it"
+)
+@run_options
+@click.option(
+    "--threads", type=click.IntRange(1, 1024), default=1, show_default=True, help="threads of the kernels"
+)
+@click.option("-o", "--output", required=True, metavar="FILE.nc", help="record to write (NetCDF-4)")
+def run(config, threads, output, **options):
+    """Solve one collapse, print one line and write its record.
+
+    Exit status: 0 when a record was written, whatever its status; 2 for bad input; 1 for a fault.
+    """
+    from subslide import jobs
+
+    gc.disable()  # a seventh of the start-up time went into looking for cycles among imported modules
+    options = {key: value for key, value in options.items() if value is not None}
+    point = jobs.point_of(config, options)
+    jobs.check_output(output, inputs=[config] if config else [])
+    jobs.set_threads(threads)
+    click.echo(jobs.run(point, threads, output))
+
+
+@cli.command()
+@click.argument("config", nargs=-1, required=True)
+def check(config):
+    """Check study files, CONFIG..., and print one line for each."""
+    from subslide.config import read_study
+
+    for path in config:
+        study = read_study(path)
+        click.echo(f"{path}: study '{study.name}', {len(study.runs)} runs, {len(study.figures)} figures")
+
+
+@cli.command()
+@click.argument("spec")
+@click.option(
+    "--threads", type=click.IntRange(1, 1024), default=1, show_default=True, help="threads of the kernels"
+)
+@click.option("-o", "--output", required=True, metavar="FILE.nc", help="record to write (NetCDF-4)")
+def batch(spec, threads, output):
+    """Solve the points of a batch file, SPEC, into one record with its SHA-256 beside it."""
+    from subslide import jobs
+
+    jobs.check_output(output, inputs=[spec])
+    jobs.set_threads(threads)
+    for line in jobs.batch(spec, threads, output):
+        click.echo(line)
+
+
+@cli.command()
+@click.argument("kernel", nargs=-1, required=True, metavar="MODEL:ORDER:DTYPE...")
+def warm(kernel):
+    """Compile the kernels of some models into the cache, so that jobs started together do not each compile."""
+    from subslide import jobs
+
+    jobs.set_threads(1)
+    for line in jobs.warm(kernel):
+        click.echo(line)
+
+
+@cli.command()
+@click.argument("results")
+def tables(results):
+    """Write the tables of a study from its records; RESULTS is the study's folder, such as results/paper."""
+    from subslide import tables as tables_of
+
+    for path in tables_of.write(Path(results)):
+        click.echo(str(path))
+
+
+@cli.command()
+@click.argument("name")
+@click.option(
+    "--results", required=True, metavar="FOLDER", help="folder of a study with its tables and records"
+)
+@click.option("-o", "--output", required=True, metavar="FOLDER", help="folder for NAME.png and NAME.svg")
+def figure(name, results, output):
+    """Draw one figure, NAME, of a study as PNG and SVG."""
+    from subslide import drawing
+
+    for path in drawing.save(name, Path(results), Path(output)):
+        click.echo(str(path))
+
+
+@cli.command()
+def docs():
+    """Write the pages of documentation that follow from the code, in the repository that is the current folder."""
+    from subslide import docs as pages_of
+    from subslide.atomic import write_text
+
+    for path, text in pages_of.pages().items():
+        if not Path(path).parent.is_dir():
+            raise ConfigError(f"{path}: there is no such folder here; allowed: the root of the repository")
+        write_text(path, text)
+        click.echo(path)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Exit status of the command line: 0 done, 2 bad input (one line on stderr), 1 a fault."""
+    try:
+        code = cli.main(arguments, prog_name="subslide", standalone_mode=False)
+        return code if isinstance(code, int) else 0
+    except click.ClickException as error:
+        return _complain(error.format_message(), BAD_INPUT)
+    except ConfigError as error:
+        return _complain(str(error), BAD_INPUT)
+    except (click.Abort, KeyboardInterrupt):
+        return _complain("interrupted; nothing was written", INTERRUPTED)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except OSError as error:
+        if type(error).__name__ == "RecordError":
+            return _complain(str(error), FAULT)
+        return _complain(f"{error.filename or 'output'}: {error.strerror or error}", FAULT)
+
+
+def _complain(message: str, code: int) -> int:
+    print("subslide: " + " ".join(message.split()), file=sys.stderr)
+    return code
+
+
+def entry() -> None:
+    """Nothing; ends the process at once: tearing down compiled code takes longer than a radial run."""
+    status = main()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(status)
+
+
+if __name__ == "__main__":
+    entry()

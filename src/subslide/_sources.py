@@ -1,0 +1,37 @@
+"""Hashes of the package's own sources: they tell when results and compiled kernels are out of date."""
+
+import functools
+import hashlib
+from pathlib import Path
+
+PACKAGE = Path(__file__).resolve().parent
+SOLVER = ("kernels", "models", "scenes", "exact", "diagnostics", "solver.py", "fields.py")
+"""Parts whose code is compiled, or decides which code is."""
+
+DRAWING = ("figures", "drawing.py", "docs.py")
+"""Parts that only draw or describe what is solved: a change here never changes a record or a table."""
+
+
+@functools.cache
+def source_hash(part: str = "results", figure: str = "") -> str:
+    """Hash (12 hex digits) of the package's sources.
+
+    part: 'results' (all that can change a record or a table), 'solver' (the compiled part alone), or 'figure' (all
+    but the modules of other figures than `figure`).
+    """
+    digest = hashlib.sha256()
+    for path in sorted([*PACKAGE.rglob("*.py"), *PACKAGE.glob("*.json")]):
+        name = path.relative_to(PACKAGE)
+        if _belongs(name, part, figure):
+            body = path.read_bytes()
+            digest.update(f"{name.as_posix()} {len(body)}\n".encode() + body)
+    return digest.hexdigest()[:12]
+
+
+def _belongs(name: Path, part: str, figure: str) -> bool:
+    """True if a source file, by its path within the package, counts for this part."""
+    if part == "solver":
+        return name.parts[0] in SOLVER
+    if part == "results":
+        return name.parts[0] not in DRAWING
+    return name.parts[0] != "figures" or name.stem.startswith("_") or name.stem == figure

@@ -1,0 +1,189 @@
+"""From a YAML file to a study: checked values, and the table of its points."""
+
+import itertools
+from dataclasses import dataclass
+from pathlib import Path
+
+from subslide import figures, schema
+from subslide.points import RUN_KEYS, Point, from_dict
+from subslide.schema import ConfigError
+
+MOST_POINTS = 200_000
+MOST_PLANE_CELLS = 10_000
+
+
+@dataclass(frozen=True)
+class Study:
+    """A checked study: its name, the figures to draw, and its runs as (label of numerics, point), without repeats."""
+
+    name: str
+    figures: tuple[str, ...]
+    runs: tuple[tuple[str, Point], ...]
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """Points in the order of the tables."""
+        return tuple(point for _, point in self.runs)
+
+
+def read_yaml(path: Path | str) -> dict:
+    """Mapping in a YAML file, unchecked but for repeated keys; ConfigError in one line if it cannot be read."""
+    import yaml
+
+    path = Path(path)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        near = schema.closest(path.name, [p.name for p in path.parent.glob("*.y*ml")])
+        raise ConfigError(f"{path}: there is no such file{near}") from None
+    except UnicodeDecodeError:
+        raise ConfigError(f"{path}: this is not a text file in UTF-8") from None
+    except OSError as error:
+        raise ConfigError(f"{path}: cannot be read: {error.strerror}") from None
+    try:
+        values = yaml.load(text, Loader=_strict_loader())
+    except yaml.MarkedYAMLError as error:
+        line = error.problem_mark.line + 1 if error.problem_mark else "?"
+        raise ConfigError(f"{path}, line {line}: not valid YAML: {error.problem}") from None
+    except (yaml.YAMLError, RecursionError, ValueError) as error:
+        raise ConfigError(f"{path}: not valid YAML: {' '.join(str(error).split())}") from None
+    if values is None:
+        raise ConfigError(f"{path}: the file is empty; allowed keys: {', '.join(schema.properties())}")
+    if not isinstance(values, dict):
+        raise ConfigError(f"{path}: expected lines of 'key: value', found {schema.show(values)}")
+    return values
+
+
+def read_study(path: Path | str) -> Study:
+    """Checked study of a YAML file; ConfigError in one line, which begins with the path, if anything is wrong."""
+    values = read_yaml(path)
+    try:
+        return make_study(values)
+    except ConfigError as error:
+        raise ConfigError(f"{path}: {error}") from None
+
+
+def make_study(values: dict) -> Study:
+    """Checked study of a mapping such as a YAML file holds."""
+    _check_keys(values)
+    if "study" not in values:
+        raise ConfigError(f"study: this key is missing; allowed: {schema.allowed('study')}")
+    name = schema.checked("study", values["study"])
+    axes = {key: _axis(key, values[key]) for key in ("numerics", *RUN_KEYS) if key in values}
+    count = 1
+    for entries in axes.values():
+        count *= len(entries)
+    if count > MOST_POINTS:
+        raise ConfigError(f"the grid has {count} points; allowed: at most {MOST_POINTS}")
+    runs = {}
+    for combination in itertools.product(*axes.values()):
+        label, point = resolve(dict(zip(axes, combination, strict=True)))
+        runs.setdefault(point.id, (label, point))
+    runs = tuple(runs.values())
+    return Study(name, _chosen_figures(values, [point for _, point in runs]), runs)
+
+
+def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
+    """Point of a mapping with one value for each key; `names` are the keys' names in messages (options)."""
+    _check_keys(values)
+    names = names or {}
+    single = {}
+    for key, value in values.items():
+        if key not in ("numerics", *RUN_KEYS):
+            continue
+        if schema.is_axis(key) and isinstance(value, list):
+            if len(value) != 1:
+                raise ConfigError(f"{key}: {schema.show(value)} has {len(value)} values; a run takes one")
+            value = value[0]
+        single[key] = schema.checked(key, value, names.get(key, key))
+    return resolve(single)[1]
+
+
+def resolve(values: dict) -> tuple[str, Point]:
+    """Label of the numerics, and the point, of checked single values by key."""
+    values = dict(values)
+    label = values.pop("numerics", schema.properties()["numerics"]["default"])
+    point = from_dict({**schema.properties()["numerics"]["presets"][label], **values})
+    plane = point.model in ("quarter", "plane")
+    if point.model == "one-layer" and point.r != 0:
+        raise ConfigError(f"model: one-layer is not allowed with r: {point.r:g}; allowed: only with r: 0")
+    if point.fields and not plane:
+        raise ConfigError(f"fields: true is not allowed with model: {point.model}; allowed: quarter, plane")
+    if plane and point.cells > MOST_PLANE_CELLS:
+        raise ConfigError(
+            f"cells: {point.cells} is not allowed in the plane; allowed: at most {MOST_PLANE_CELLS}"
+        )
+    return label, point
+
+
+def _check_keys(values: dict) -> None:
+    for key in values:
+        if key not in schema.properties():
+            hint = schema.closest(key, schema.properties())
+            known = "" if hint else f"; allowed: {', '.join(schema.properties())}"
+            raise ConfigError(
+                f"{schema.show(key)}: there is no such key (its value: {schema.show(values[key])}){hint}{known}"
+            )
+
+
+def _axis(key: str, value) -> list:
+    """Values of one key along its axis, checked, without repeats."""
+    if not (schema.is_axis(key) and isinstance(value, list)):
+        return [schema.checked(key, value)]
+    if not value:
+        raise ConfigError(
+            f"{key}: [] makes an empty grid; allowed: {schema.allowed(key)}, or a list of at least one"
+        )
+    entries = [schema.checked(key, entry) for entry in value]
+    return list(dict.fromkeys(entries))
+
+
+def _chosen_figures(values: dict, points: list[Point]) -> tuple[str, ...]:
+    """Names of the figures of a study: those asked for, or all whose runs it has."""
+    chosen = schema.checked("figures", values.get("figures", "auto"))
+    known = figures.names()
+    if chosen == "none":
+        return ()
+    if chosen == "auto":
+        return tuple(name for name in known if not _lacking(name, points))
+    for name in chosen:
+        if name not in known:
+            hint = schema.closest(name, known)
+            raise ConfigError(
+                f"figures: {schema.show(name)} is not allowed; allowed: {', '.join(known) or 'none'}{hint}"
+            )
+        if lack := _lacking(name, points):
+            raise ConfigError(f"figures: {name} needs runs with {lack}, which this study does not have")
+    return tuple(name for name in known if name in chosen)
+
+
+def _lacking(name: str, points: list[Point]) -> str:
+    """First 'key: value' that a figure needs and no point has, or ''."""
+    for key, needed in figures.about(name).needs.items():
+        present = {getattr(point, key) for point in points}
+        for value in needed:
+            if value not in present:
+                return f"{key}: {value}"
+    return ""
+
+
+def _strict_loader():
+    """YAML loader that refuses a key given twice; the plain one keeps the last in silence."""
+    import yaml
+
+    class Loader(yaml.SafeLoader):
+        pass
+
+    def mapping(loader, node, deep=False):
+        seen = set()
+        for key_node, _ in node.value:
+            key = key_node.value if isinstance(key_node, yaml.ScalarNode) else str(key_node.start_mark)
+            if key in seen:
+                raise yaml.constructor.ConstructorError(
+                    None, None, f"the key '{key}' is given twice", key_node.start_mark
+                )
+            seen.add(key)
+        return yaml.SafeLoader.construct_mapping(loader, node, deep)
+
+    Loader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, mapping)
+    return Loader

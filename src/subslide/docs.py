@@ -1,0 +1,101 @@
+"""Pages of documentation that follow from the code, so that each fact has one place."""
+
+from subslide import fields, schema, tables
+
+CONFIG_PAGE, TABLES_PAGE = "config/README.md", "docs/tables.md"
+
+CONFIG_TEXT = """# Studies
+
+<!-- written by `make docs` from src/subslide/config.schema.json -->
+
+One YAML file is one study. Run it with
+
+    make study CONFIG=config/mine.yaml CORES=2
+
+or, in the virtual environment that `make setup` makes, `snakemake --configfile config/mine.yaml --cores 2`.
+Results go to `results/<study>/`. Without a file Snakemake runs `config/paper.yaml`; files are never merged.
+
+Keys are flat. A key that is marked as an axis takes one value or a list; the runs are the product of all lists, and a
+point that comes up twice runs once. `subslide check config/mine.yaml` tells what a file holds, or what is wrong.
+
+```yaml
+study: mine
+a_H: [1, 2, 4]
+r: [0, 0.4]
+delta: [25, 30, 35]
+model: radial
+```
+
+Changing the lists computes only what is new: each point has a name that depends on its values alone (`1` and `1.0`
+are the same), a ledger in `results/<study>/batches/` remembers which record holds it, and points that are no longer
+asked for stay there unused. A change of the package's code computes everything again.
+
+## Keys
+
+"""
+
+TABLES_TEXT = """# Tables
+
+<!-- written by `make docs` from src/subslide/tables.py -->
+
+Written to `results/<study>/tables/`. Rows follow the order of the study's lists; an empty entry is a value that the run
+does not have. Runs that failed are rows too: see `status`.
+
+"""
+
+
+def pages() -> dict[str, str]:
+    """Text of each generated page, by its path from the root of the repository."""
+    return {CONFIG_PAGE: CONFIG_TEXT + keys() + presets(), TABLES_PAGE: TABLES_TEXT + columns()}
+
+
+def keys() -> str:
+    """Table (Markdown) of all keys of a study."""
+    rows = ["| key | meaning | unit | default | allowed | axis |", "|---|---|---|---|---|---|"]
+    for key, about in schema.properties().items():
+        default = schema.show(about["default"]) if "default" in about else "needed"
+        axis = "yes" if schema.is_axis(key) else ""
+        entries = (f"`{key}`", about["description"], schema.unit(key), default, schema.allowed(key), axis)
+        rows.append("| " + " | ".join(entries) + " |")
+    return "\n".join(rows) + "\n"
+
+
+def presets() -> str:
+    """List (Markdown) of what each value of `numerics` sets."""
+    lines = ["", "## Named numerics", ""]
+    for name, values in schema.properties()["numerics"]["presets"].items():
+        text = (
+            ", ".join(f"`{key}: {value}`" for key, value in values.items()) or "nothing: the defaults above"
+        )
+        lines.append(f"- `{name}` sets {text}")
+    return "\n".join(lines) + "\n"
+
+
+def columns() -> str:
+    """Tables (Markdown) of the columns of each table."""
+    quantities = {**{f"x_front_{t}": ("m", f"x_front at the {t[:-2]} % front") for t in tables.THRESHOLDS}}
+    quantities.update(
+        (name, (field.unit if field.unit != "1" else "", field.long_name))
+        for name, field in fields.SERIES.items()
+        if name != "x_front"
+    )
+    return "\n".join(
+        (
+            _section(
+                "runs.csv", "One row a run; nothing here differs between two identical runs.", tables.COLUMNS
+            ),
+            _section("timing.csv", "One row a run.", tables.TIMING),
+            _section(
+                "series.csv",
+                f"Columns `id`, `time` (s), `quantity`, `value`: one row a sample, and a sample each time step. Above"
+                f" {tables.MOST_RUNS_IN_CSV} runs it is `series.parquet` instead. Quantities:",
+                quantities,
+            ),
+        )
+    )
+
+
+def _section(title: str, text: str, rows: dict[str, tuple[str, str]]) -> str:
+    lines = [f"## {title}", "", text, "", "| name | unit | meaning |", "|---|---|---|"]
+    lines += [f"| `{name}` | {unit} | {meaning} |" for name, (unit, meaning) in rows.items()]
+    return "\n".join(lines) + "\n"

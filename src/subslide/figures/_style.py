@@ -1,0 +1,146 @@
+"""The look of every figure: size of print, colours with line styles and markers, legends, notes."""
+
+import functools
+import re
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import numpy as np
+import seaborn as sns
+from matplotlib.lines import Line2D
+
+from subslide.figures import _words
+
+WIDTH = 7.2
+"""Width of a figure on a printed page (inch)."""
+GREY = "0.45"
+DASHES = ("-", (0, (5, 1.5)), (0, (4, 1.2, 1, 1.2)), (0, (1.2, 1)), (0, (9, 2)), (0, (3, 1, 1, 1, 1, 1)))
+MARKERS = "os^DvPX<>"
+RC = {
+    "font.size": 8,
+    "axes.titlesize": 8.5,
+    "axes.labelsize": 8.5,
+    "legend.fontsize": 8,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
+    "figure.titlesize": 10,
+    "axes.linewidth": 0.7,
+    "grid.linewidth": 0.4,
+    "grid.color": "0.88",
+    "lines.linewidth": 1.4,
+    "lines.markersize": 4,
+    "legend.frameon": False,
+    "legend.handlelength": 3.2,
+    "xtick.major.width": 0.7,
+    "ytick.major.width": 0.7,
+    "mathtext.fontset": "dejavusans",
+}
+
+
+class NoRunsError(Exception):
+    """The study has no run that a figure could show."""
+
+
+def styled(draw):
+    """Return `draw` so that its figure is made in the style of all figures; an empty one if it has no run."""
+
+    @functools.wraps(draw)
+    def wrapped(results):
+        with sns.axes_style("ticks", {"axes.grid": True}), mpl.rc_context(RC):
+            try:
+                return draw(results)
+            except NoRunsError as error:
+                figure = plt.figure(figsize=(WIDTH, 1.0))
+                figure.suptitle(f"{draw.__globals__['TITLE']}: no such run ({error})", wrap=True)
+                return figure
+
+    return wrapped
+
+
+def panels(count, columns, height, **options):
+    """Return (figure, axes list): `count` panels in rows of `columns`, each row `height` inches high.
+
+    A panel with none below it has the numbers of its x axis, even where panels share that axis.
+    """
+    rows = -(-count // columns)
+    figure, grid = plt.subplots(
+        rows, columns, figsize=(WIDTH, rows * height + 0.9), layout="constrained", squeeze=False, **options
+    )
+    axes = list(grid.flat)
+    for unused in axes[count:]:
+        unused.remove()
+    for k, ax in enumerate(axes[:count]):
+        sns.despine(ax=ax)
+        if k + columns >= count:
+            ax.tick_params(labelbottom=True)
+    return figure, axes[:count]
+
+
+def keys_to(values, palette="viridis", dark=0.0, light=0.82):
+    """Return {value: look}: shade, dashes and marker, told apart in grey and by eyes that see few colours."""
+    shades = mpl.colormaps[palette](np.linspace(dark, light, max(len(values), 2)))
+    return {
+        value: {
+            "color": tuple(shades[k]),
+            "linestyle": DASHES[k % len(DASHES)],
+            "marker": MARKERS[k % len(MARKERS)],
+        }
+        for k, value in enumerate(sorted(values))
+    }
+
+
+def line(look):
+    """Return the options of a line without markers."""
+    return {key: look[key] for key in ("color", "linestyle")}
+
+
+def handles(looks, key, markers=True):
+    """Return the handles of a legend, one for each value of `key`."""
+    options = {"markeredgewidth": 0} if markers else {"marker": ""}
+    return [
+        Line2D([], [], **{**look, **options}, label=_words.equation(key, value))
+        for value, look in looks.items()
+    ]
+
+
+def mark_end(ax, x, y):
+    """Nothing; a cross stands where a curve ends before its run should have."""
+    ax.plot(x, y, "x", color="black", markersize=6, markeredgewidth=1.4, zorder=5, clip_on=False)
+
+
+def bottom_row(axes, columns):
+    """Return the panels that have none below them."""
+    return axes[max(len(axes) - columns, 0) :]
+
+
+def finish(figure, title, about, notes=(), handles=None, columns=5):
+    """Return the figure with its title, what all its runs share, one legend below and notes below that."""
+    inch = 1 / figure.get_figheight()
+    figure.suptitle(title, y=1 - 0.05 * inch, va="top", fontweight="bold")
+    figure.text(0.5, 1 - 0.25 * inch, about, ha="center", va="top", fontsize=8, color="0.3")
+    below = 0.0
+    if handles:
+        columns = min(columns, len(handles))
+        below = 0.17 * -(-len(handles) // columns) + 0.1
+        frame = {
+            "bbox_to_anchor": (0, 0, 1, 1),
+            "bbox_transform": figure.transFigure,
+        }  # unlike the default, the same place when saved "tight"
+        figure.legend(handles=handles, loc="lower center", ncols=columns, borderaxespad=0, **frame)
+    figure.get_layout_engine().set(rect=(0, below * inch, 1, 1 - (below + 0.45) * inch))
+    text = "\n".join(line for note in notes for line in _wrapped(note, 138))
+    figure.text(0.01, -0.05 * inch, text, ha="left", va="top", fontsize=7, color="0.25", linespacing=1.35)
+    return figure
+
+
+def _wrapped(text, width):
+    """Return lines of up to `width` characters as they are seen: marks of mathematics take no room."""
+    lines, room = [[]], width
+    for word in text.split():
+        seen = len(re.sub(r"[$_{}]|\\[a-z]*", "", word)) + 1
+        if seen > room:
+            lines.append([])
+            room = width
+        lines[-1].append(word)
+        room -= seen
+    return [" ".join(line) for line in lines]

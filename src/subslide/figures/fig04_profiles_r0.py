@@ -1,0 +1,119 @@
+"""Paper's Figure 4: profiles of the grains without buoyancy (r = 0), beside the laboratory's runout law."""
+
+import numpy as np
+
+from subslide import fields
+from subslide.figures import _profiles, _slices, _style, _words
+
+TITLE = "Profiles of the grains at r = 0, beside the laboratory runout law"
+CATEGORY = "1 Shape of the grains"
+NEEDS = {"r": (0,)}
+
+FOOT = 25.0
+"""Depth (% of H2) up to which the foot of the deposit is drawn."""
+LAW = {"color": "black", "linewidth": 2.2, "zorder": 1.5}
+
+
+def law(a_2):
+    """Return the runout over R of dry columns in the laboratory; Lube et al., J. Fluid Mech. 508 (2004)."""
+    return 1 + 1.24 * a_2 if a_2 < 1.7 else 1 + 1.6 * np.sqrt(a_2)
+
+
+@_style.styled
+def draw(results):
+    """Return the figure: all profiles of one run, and the foot of the deposit for each a_H."""
+    chosen = _slices.cut(results, by=("a_H",), most={"a_H": 4}, r=0)
+    runs = chosen.runs
+    radius, height = _slices.sizes(runs)
+    runout = law(runs.iloc[0]["a_2"])
+    records = {row["a_H"]: results.record(row["id"]) for _, row in runs.iterrows()}
+    shapes = {a_H: _profiles.profiles(record, "h2") for a_H, record in records.items()}
+
+    figure, (left, right) = _style.panels(2, 2, 2.9)
+    main = _slices.nearest(list(shapes), 1)
+    _evolution(left, shapes[main], radius, height, runout)
+    left.set_title(_words.panel(0, f"$h_2$ along $x$, {_words.equation('a_H', main)}"))
+    depths = _foot(right, shapes, radius, height, runout)
+    right.set_title(_words.panel(1, "foot of the deposit at the end of the run"))
+    fronts = {
+        a_H: float(record["L_f"].sel(front_threshold=_words.THRESHOLD, method="nearest")) / radius
+        for a_H, record in records.items()
+    }
+    farthest = np.nanmax([runout, *fronts.values()])
+    right.set_xlim(0.75 * runout, 1.1 * farthest)
+    notes = [*_notes(depths, fronts, runout), *chosen.notes, *_slices.trouble(runs, by=("a_H",))]
+    title = "Profiles of the grains at $r$ = 0, beside the laboratory runout law"
+    return _style.finish(figure, title, chosen.about, notes)
+
+
+def _evolution(ax, found, radius, height, runout):
+    """Nothing; profiles at all times are in `ax`, those that coincide as one line."""
+    x_unit, unit = _words.length_unit(3 * radius), _words.length_unit(height)
+    groups = _profiles.together(found, 2e-3 * height)
+    for look, group in zip(_style.keys_to(range(len(groups)), light=0.75).values(), groups, strict=False):
+        x, depth = group[0].x * x_unit.factor, group[0].values * unit.factor
+        ax.plot(x, depth, **_style.line(look), label=_profiles.name_of(group))
+    ax.axvline(runout * radius * x_unit.factor, ymax=0.72, **LAW)
+    far = max(_profiles.reach(found, 1e-3 * height), runout * radius)
+    begin = _profiles.start([found], far)
+    ax.set(
+        xlim=(1.08 * begin * x_unit.factor, 1.08 * far * x_unit.factor), ylim=(0, 1.45 * height * unit.factor)
+    )
+    ax.set(xlabel=_words.label("x", x_unit), ylabel=_words.label("h2", unit))
+    ax.legend(
+        title="$t$ after release",
+        alignment="left",
+        handlelength=2.6,
+        loc="upper left",
+        ncols=2,
+        frameon=True,
+        edgecolor="white",
+        framealpha=1,
+    )
+
+
+def _foot(ax, shapes, radius, height, runout):
+    """Return {a_H: depth (% of H2) at the law's runout}; the last profiles are in `ax`."""
+    depths = {}
+    for (a_H, look), found in zip(
+        _style.keys_to(shapes, palette="plasma", light=0.7).items(), shapes.values(), strict=True
+    ):
+        end = _profiles.at(found, None)
+        if end is None:
+            continue
+        depths[a_H] = 100 * np.interp(runout * radius, end.x, end.values) / height
+        ax.plot(
+            end.x / radius, 100 * end.values / height, **_style.line(look), label=_words.equation("a_H", a_H)
+        )
+        ax.plot(runout, depths[a_H], look["marker"], color=look["color"], markeredgewidth=0, markersize=5)
+    for threshold in fields.FRONT_THRESHOLDS:
+        ax.axhline(100 * threshold, color=_style.GREY, linewidth=0.7, linestyle=":")
+    ax.axvline(runout, ymax=0.72, **LAW, label=f"laboratory law, {runout:.2f} $R$")
+    ax.set(xlabel="$x/R$", ylabel="$h_2/H_2$ (%)", ylim=(0, FOOT))
+    ax.set_yticks([100 * t for t in fields.FRONT_THRESHOLDS] + [10, 15, 20, 25])
+    ax.legend(loc="upper right", frameon=True, edgecolor="white", framealpha=1)
+    return depths
+
+
+def _notes(depths, fronts, runout):
+    """Return what the figure measures where the law puts the edge of the deposit."""
+    rule = "1 + 1.24 $a_2$ where $a_2$ < 1.7, else 1 + 1.6 $\\sqrt{a_2}$"
+    notes = [
+        f"Vertical line: runout/$R$ of dry columns in the laboratory (Lube et al. 2004), {rule}: "
+        f"{runout:.2f}."
+    ]
+    if depths:
+        there = ", ".join(f"{depth:.1f} % ({_words.equation('a_H', a_H)})" for a_H, depth in depths.items())
+        ends = ", ".join(f"{front:.2f}" for a_H, front in fronts.items() if a_H in depths)
+        notes.append(
+            f"The model's depth there, in $H_2$: {there}. Its {_words.THRESHOLD:.0%} front is at {ends} "
+            f"$R$. Dotted: "
+            "the depths (1, 3, 5 %) that define fronts in the tables."
+        )
+    if len(depths) > 1:
+        notes.append(
+            f"At $r$ = 0 the grains cannot feel the water: what differs between values of "
+            f"{_words.SYMBOLS['a_H']} "
+            "is numerical error."
+        )
+    return notes

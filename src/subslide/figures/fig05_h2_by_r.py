@@ -1,0 +1,61 @@
+"""Paper's Figure 5: depth of the grains along x at given times, for each ratio of densities."""
+
+from subslide.figures import _profiles, _slices, _style, _words
+
+TITLE = "Depth of the grains along x, for each ratio of densities r"
+CATEGORY = "1 Shape of the grains"
+NEEDS = {}
+
+
+@_style.styled
+def draw(results):
+    """Return the figure: a panel for each time of the profiles, a line for each r."""
+    a_H = _slices.nearest(_slices.values_of(results, "a_H"), 1)
+    chosen = _slices.cut(results, by=("a_H", "r"), most={"r": 6}, a_H=a_H)
+    runs = chosen.runs
+    radius, height = _slices.sizes(runs)
+    shapes = {row["r"]: _profiles.profiles(results.record(row["id"]), "h2") for _, row in runs.iterrows()}
+    looks = _style.keys_to(shapes)
+    times = [0.0, *_profiles.times_of(shapes.values(), 4), None]
+    x_unit, unit, t_unit = (
+        _words.length_unit(3 * radius),
+        _words.length_unit(height),
+        _words.time_unit(times[-2]),
+    )
+
+    columns = min(3, len(times))
+    figure, axes = _style.panels(len(times), columns, 1.75, sharex=True, sharey=True)
+    missing = []
+    for k, (ax, time) in enumerate(zip(axes, times, strict=True)):
+        when = _words.moment(time, t_unit) if time is not None else "end of the run"
+        ax.set_title(_words.panel(k, when))
+        for r, found in shapes.items():
+            profile = _profiles.at(found, time)
+            if profile is None:
+                missing.append(f"{_words.equation('r', r)}, {when}")
+                continue
+            ax.plot(profile.x * x_unit.factor, profile.values * unit.factor, **_style.line(looks[r]))
+        ax.axvline(radius * x_unit.factor, color=_style.GREY, linewidth=0.7, linestyle=":", zorder=0.5)
+    far = 1.05 * max(_profiles.reach(found, 2e-3 * height) for found in shapes.values()) + runs.iloc[0]["dx"]
+    begin = _profiles.start(shapes.values(), far)
+    axes[0].set(xlim=(begin * x_unit.factor, far * x_unit.factor), ylim=(0, 1.1 * height * unit.factor))
+    for ax in _style.bottom_row(axes, columns):
+        ax.set_xlabel(_words.label("x", x_unit))
+    for ax in axes[::columns]:
+        ax.set_ylabel(_words.label("h2", unit))
+    notes = [f"Dotted: edge of the column at release. {_rest(runs, t_unit)}"]
+    if missing:
+        notes.append(f"No profile: {'; '.join(missing)}.")
+    notes += [*chosen.notes, *_slices.trouble(runs)]
+    title = f"Depth of the grains $h_2$ along $x$ for each $r$, {_words.equation('a_H', a_H)}"
+    return _style.finish(figure, title, chosen.about, notes, _style.handles(looks, "r", markers=False), 6)
+
+
+def _rest(runs, unit):
+    """Return when each run came to rest, in words."""
+    still = runs[runs["time_at_rest"].notna()]
+    if still.empty:
+        return "No run came to rest."
+    times = ", ".join(f"{float(f'{time * unit.factor:.3g}'):g}" for time in still["time_at_rest"])
+    ratios = ", ".join(_words.number(r) for r in still["r"])
+    return f"Every grain is at rest after {times} {unit.name} for {_words.SYMBOLS['r']} = {ratios}."

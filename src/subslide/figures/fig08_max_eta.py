@@ -1,0 +1,87 @@
+"""Paper's Figure 8: largest displacement of the water surface against time, the paper's times marked."""
+
+import numpy as np
+
+from subslide.figures import _slices, _style, _water, _words
+
+TITLE = "Largest displacement of the water surface against time"
+CATEGORY = "3 Water surface"
+NEEDS = {}
+
+PAPER_TIMES = (0.08, 0.16, 0.24, 0.54)
+"""Times (s) at which the paper gives max|eta|, at its R of 0.0705 m; other R scale them by sqrt(R)."""
+ROWS = {"max_abs_eta": "whole box", "max_abs_eta_outside": "beyond $R$"}
+
+
+@_style.styled
+def draw(results):
+    """Return the figure: a column for each a_H; the whole box above, beyond R below; a line for each r."""
+    chosen = _slices.cut(results, most={"a_H": 4, "r": 6})
+    runs, dry = _water.wet(chosen.runs)
+    shown, left_out = _water.buoyant(runs)
+    radius, _ = _slices.sizes(chosen.runs)
+    marks = np.sqrt(radius / 0.0705) * np.array(PAPER_TIMES)
+    depths = sorted(shown["a_H"].unique())
+    looks = {r: look for r, look in _style.keys_to(runs["r"].unique()).items() if r in set(shown["r"])}
+    curves = {quantity: _slices.curves(results, shown, quantity) for quantity in ROWS}
+    values = [value for found in curves.values() for _, value in found.values()]
+    t_unit, unit = _words.time_unit(marks), _words.length_unit(*values)
+
+    columns = max(len(depths), 1)
+    figure, axes = _style.panels(2 * columns, columns, 2.1, sharex=True, sharey="row")
+    for k, ax in enumerate(axes if depths else []):
+        quantity, a_H = list(ROWS)[k // columns], depths[k % columns]
+        rows = shown[shown["a_H"] == a_H]
+        for _, row in rows.iterrows():
+            _line(ax, row, curves[quantity].get(row["id"]), looks[row["r"]], marks, t_unit, unit)
+        for time in marks:
+            ax.axvline(time * t_unit.factor, color=_style.GREY, linewidth=0.6, linestyle=":", zorder=0.5)
+        reached = _water.edge_time(rows.iloc[0]) * t_unit.factor
+        ax.axvspan(reached, 1e3 * reached, color="0.94", zorder=0, linewidth=0)
+        ax.set_title(_words.panel(k, f"{_words.equation('a_H', a_H)}, {ROWS[quantity]}"))
+        ax.set_ylim(bottom=0)
+    axes[0].set_xlim(0, 1.1 * marks[-1] * t_unit.factor)
+    for ax in axes[::columns]:
+        ax.set_ylabel(_words.label("max_abs_eta", unit))
+    for ax in _style.bottom_row(axes, columns):
+        ax.set_xlabel(_words.label("time", t_unit))
+    title = f"Largest displacement of the water surface, {_words.SYMBOLS['max_abs_eta']}, against time"
+    notes = [
+        *_notes(shown, marks, t_unit),
+        *left_out,
+        *dry,
+        *chosen.notes,
+        *_slices.trouble(shown, mark="× ends its curve"),
+    ]
+    return _style.finish(figure, title, chosen.about, notes, _style.handles(looks, "r"), 6)
+
+
+def _notes(shown, marks, unit):
+    """Return what symbols and shades mean, and what is not converged."""
+    if shown.empty:
+        return ["No run of this study has a water surface."]
+    times = ", ".join(f"{time * unit.factor:.4g}" for time in marks)
+    scaled = "" if np.allclose(marks, PAPER_TIMES) else " scaled by $\\sqrt{R}$"
+    notes = [
+        f"Dotted lines and symbols: {times} {unit.name}, the paper's times{scaled}. Grey: waves from $R$ have "
+        f"reached the edge of the watched box (half-width {_water.BOX:.2f} $R$); from then on its boundary has a part. "
+        "Each row has its own scale."
+    ]
+    if _slices.first_order(shown):
+        notes.append(_water.NOT_CONVERGED)
+    return notes
+
+
+def _line(ax, row, curve, look, marks, t_unit, unit):
+    """Nothing; a run's curve is in `ax`, its values at the marked times as symbols, a cross if it failed."""
+    if curve is None or not np.isfinite(curve[1]).any():
+        return
+    seen = np.isfinite(curve[1])
+    time, value = curve[0][seen], curve[1][seen]
+    ax.plot(time * t_unit.factor, value * unit.factor, **_style.line(look), linewidth=1.1)
+    inside = marks[marks <= time[-1]]
+    at = np.interp(inside, time, value)
+    options = {"color": look["color"], "markeredgewidth": 0, "linestyle": ""}
+    ax.plot(inside * t_unit.factor, at * unit.factor, marker=look["marker"], **options)
+    if row["status"] not in _slices.FINISHED:
+        _style.mark_end(ax, time[-1] * t_unit.factor, value[-1] * unit.factor)

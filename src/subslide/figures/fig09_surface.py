@@ -1,0 +1,71 @@
+"""Paper's Figure 9: the water surface along x at given times, for the depths nearest to a_H = 1 and 2."""
+
+import numpy as np
+
+from subslide.figures import _profiles, _slices, _style, _water, _words
+
+TITLE = "Water surface along x at the paper's times"
+CATEGORY = "3 Water surface"
+NEEDS = {}
+
+
+@_style.styled
+def draw(results):
+    """Return the figure: a row for each time, a column for each a_H, a line for each r."""
+    known = _slices.values_of(results, "a_H")
+    chosen = _slices.cut(results, most={"r": 6}, a_H=[_slices.nearest(known, 1), _slices.nearest(known, 2)])
+    runs, dry = _water.wet(chosen.runs)
+    shown, left_out = _water.buoyant(runs)
+    radius, _ = _slices.sizes(chosen.runs)
+    looks = {r: look for r, look in _style.keys_to(runs["r"].unique()).items() if r in set(shown["r"])}
+    shapes = {
+        (row["a_H"], row["r"]): _profiles.profiles(results.record(row["id"]), "eta")
+        for _, row in shown.iterrows()
+    }
+    depths = sorted(shown["a_H"].unique()) or [np.nan]
+    times = _profiles.times_of(shapes.values(), 4)
+    waves = [p.values for found in shapes.values() for p in found]
+    x_unit, unit, t_unit = (
+        _words.length_unit(3 * radius),
+        _words.length_unit(*waves),
+        _words.time_unit(*times),
+    )
+
+    columns = len(depths)
+    figure, axes = _style.panels(max(len(times), 1) * columns, columns, 1.3, sharex=True, sharey="row")
+    missing = []
+    for k, ax in enumerate(axes if times else []):
+        time, a_H = times[k // columns], depths[k % columns]
+        where = f"{_words.equation('a_H', a_H)}, {_words.moment(time, t_unit)}"
+        ax.set_title(_words.panel(k, where))
+        for r, look in looks.items():
+            profile = _profiles.at(shapes.get((a_H, r), []), time)
+            if profile is None:
+                missing.append(f"{_words.equation('r', r)}, {where}")
+                continue
+            ax.plot(profile.x * x_unit.factor, profile.values * unit.factor, **_style.line(look))
+        ax.axhline(0, color="black", linewidth=0.5, zorder=0.5)
+        ax.axvline(radius * x_unit.factor, color=_style.GREY, linewidth=0.7, linestyle=":", zorder=0.5)
+    least = 0.01 * unit.factor * max((np.abs(wave).max() for wave in waves), default=0.0)
+    for ax in axes[::columns]:  # round-off about a level surface is no wave
+        low, high = ax.get_ylim()
+        ax.set_ylim(min(low, -least), max(high, least))
+    far = _water.BOX * radius
+    axes[0].set_xlim(_profiles.start(shapes.values(), far) * x_unit.factor, far * x_unit.factor)
+    for ax in axes[::columns]:
+        ax.set_ylabel(_words.label("eta", unit))
+    for ax in _style.bottom_row(axes, columns):
+        ax.set_xlabel(_words.label("x", x_unit))
+    notes = [
+        "Displacement from the level at release. Each row has its own scale. Dotted: edge of the column "
+        "at release."
+    ]
+    if not times:
+        notes = ["No run of this study has a profile of the water surface."]
+    elif _slices.first_order(shown):
+        notes.append(_water.NOT_CONVERGED)
+    if missing:
+        notes.append(f"No profile: {'; '.join(missing)}.")
+    notes += [*left_out, *dry, *chosen.notes, *_slices.trouble(shown)]
+    title = f"Displacement of the water surface {_words.SYMBOLS['eta']} along $x$"
+    return _style.finish(figure, title, chosen.about, notes, _style.handles(looks, "r", markers=False), 6)

@@ -1,0 +1,119 @@
+"""Paper's Figure 10: the grains and the water surface in three dimensions, r = 0.4 and a_H = 1."""
+
+import matplotlib as mpl
+import numpy as np
+
+from subslide.figures import _profiles, _slices, _style, _water, _words
+
+TITLE = "Grains and water surface in three dimensions, r = 0.4, a_H = 1"
+CATEGORY = "4 Views"
+NEEDS = {"a_H": (1,), "r": (0.4,)}
+
+REACH = 3.0
+"""Half-width of the view over R."""
+OPEN = np.radians((-100.0, -20.0))
+"""Sector left out of the water, so that the grains are seen."""
+FLAT = 0.5
+"""Height of the drawn box over its width."""
+WATER = mpl.colors.ListedColormap(mpl.colormaps["Blues_r"](np.linspace(0.1, 0.95, 256)))
+GRAINS = mpl.colors.ListedColormap(mpl.colormaps["YlOrBr"](np.linspace(0.3, 0.95, 256)))
+
+LIGHT = mpl.colors.LightSource(azdeg=190, altdeg=55)
+
+
+@_style.styled
+def draw(results):
+    """Return the figure: four times; the grains and, above them, the water with a sector cut away."""
+    chosen = _slices.cut(results, a_H=1, r=0.4)
+    runs, dry = _water.wet(chosen.runs)
+    record = results.record(chosen.runs.iloc[0]["id"])
+    radius, height = _slices.sizes(chosen.runs)
+    level = height * (1 + chosen.runs.iloc[0]["a_H"])
+    grains = _profiles.profiles(record, "h2")
+    times = _profiles.times_of([grains], 4) or [0.0]
+    water = [_profiles.at(_profiles.profiles(record, "eta") if len(runs) else [], time) for time in times]
+    largest = max((_largest(profile, radius) for profile in water if profile is not None), default=0.0)
+    scale = max((s for s in (1, 2, 5, 10, 20, 50, 100) if s * largest <= height / 2), default=1)
+    x_unit, unit, t_unit = (
+        _words.length_unit(2 * radius),
+        _words.length_unit(height),
+        _words.time_unit(*times),
+    )
+    norm = mpl.colors.Normalize(-largest * unit.factor, largest * unit.factor)
+
+    options = {"projection": "3d", "computed_zorder": False}
+    figure, axes = _style.panels(len(times), min(2, len(times)), 2.6, subplot_kw=options)
+    for k, (ax, time) in enumerate(zip(axes, times, strict=True)):
+        pile = _profiles.at(grains, time)
+        x, y, z = _turned(pile, radius, _profiles.reach([pile], 1e-3 * height), np.linspace(2 * np.pi, 0, 97))
+        shades = GRAINS(z / height)
+        _surface(
+            ax,
+            x * x_unit.factor,
+            y * x_unit.factor,
+            z * unit.factor,
+            shades,
+            shade=True,
+            lightsource=LIGHT,
+            zorder=1,
+        )
+        if water[k] is not None:
+            x, y, z = _turned(water[k], radius, water[k].x[-1], np.linspace(OPEN[1], OPEN[0] + 2 * np.pi, 81))
+            x, y, lifted = x * x_unit.factor, y * x_unit.factor, (level + scale * z) * unit.factor
+            _surface(ax, x, y, lifted, WATER(norm(z * unit.factor)), shade=False, alpha=0.9, zorder=2)
+            _edges(ax, x, y, lifted)
+        _frame(ax, REACH * radius * x_unit.factor, 1.25 * level * unit.factor)
+        ax.set_xlabel(_words.label("x", x_unit), labelpad=-4)
+        ax.set_ylabel(f"$y$ ({x_unit.name})", labelpad=-4)
+        ax.set_zlabel(f"height ({unit.name})", labelpad=-5)
+        ax.set_title(_words.panel(k, _words.moment(time, t_unit)), y=0.97)
+    if largest > 0:
+        shades = mpl.cm.ScalarMappable(norm, WATER)
+        bar = figure.colorbar(shades, ax=axes, orientation="horizontal", fraction=0.03, aspect=45, pad=0.02)
+        bar.set_label(
+            f"displacement of the water surface {_words.label('eta', unit)}; drawn {scale} times too high"
+        )
+    steep = FLAT * 2 * REACH * radius / (1.25 * level)
+    notes = [
+        "Brown: grains. Blue: water surface, with a sector left out. Both are profiles along the $x$ "
+        "axis, turned about "
+        f"the axis of the column. Heights are stretched {steep:.2g} times against lengths, displacements "
+        f"of the water "
+        f"surface {scale} times more."
+    ]
+    if largest > 0 and _slices.first_order(chosen.runs):
+        notes.append(_water.NOT_CONVERGED)
+    title = f"Grains and water surface, {_words.equation('r', 0.4)}, {_words.equation('a_H', 1)}"
+    notes += [*dry, *chosen.notes, *_slices.trouble(chosen.runs)]
+    return _style.finish(figure, title, chosen.about, notes)
+
+
+def _turned(profile, radius, far, angles):
+    """Return x, y and the values of a profile (m) within `far`, turned about the axis."""
+    r = np.linspace(1e-3 * radius, min(REACH * radius, far), 65)[:, None]
+    values = np.interp(r, profile.x, profile.values)
+    return r * np.cos(angles), r * np.sin(angles), values + 0 * angles
+
+
+def _surface(ax, x, y, z, shades, **options):
+    still = {"rstride": 1, "cstride": 1, "linewidth": 0, "antialiased": False, "rasterized": True}
+    ax.plot_surface(x, y, z, facecolors=shades, **still, **options)
+
+
+def _edges(ax, x, y, z):
+    """Nothing; rings and the two cut edges of a surface are in `ax`, for prints without colour."""
+    for ring in range(len(z) - 1, 0, -8):
+        ax.plot(x[ring], y[ring], z[ring], color="0.25", linewidth=0.4, zorder=3)
+    for cut in (0, -1):
+        ax.plot(x[:, cut], y[:, cut], z[:, cut], color="0.1", linewidth=0.9, zorder=3)
+
+
+def _frame(ax, reach, top):
+    ax.set(xlim=(-reach, reach), ylim=(-reach, reach), zlim=(0, top))
+    ax.set_box_aspect((1, 1, FLAT), zoom=1.15)
+    ax.view_init(elev=24, azim=-60)
+    ax.tick_params(pad=-2, labelsize=6.5)
+
+
+def _largest(profile, radius):
+    return float(np.abs(profile.values[profile.x <= REACH * radius]).max())

@@ -1,0 +1,156 @@
+"""What the solving verbs of the command line do: one run, a batch, compiled kernels.
+
+Only numpy, numba and netCDF4 are imported here, and late: start-up is most of a radial run's time.
+"""
+
+import hashlib
+import json
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from subslide import config, schema
+from subslide.atomic import write_text
+from subslide.points import Point, from_dict
+from subslide.schema import ConfigError
+
+
+def point_of(path: str | None, options: dict[str, str]) -> Point:
+    """Point of a configuration file, if any, and of options (texts by key), which win."""
+    values = config.read_yaml(path) if path else {}
+    names = {key: f"{path}: {key}" for key in values}
+    for key, text in options.items():
+        values[key] = _value_of_text(text)
+        names[key] = "--" + key.replace("_", "-")
+    if isinstance(values.get("snapshot_times"), int | float):
+        values["snapshot_times"] = [values["snapshot_times"]]
+    return config.make_point(values, names)
+
+
+def check_output(path: str, inputs: list[str]) -> None:
+    """Nothing; ConfigError unless a file can be written at `path`, which is none of the inputs."""
+    target = Path(path)
+    folder = target.parent
+    if target.is_dir():
+        raise ConfigError(f"--output: {path} is a folder; allowed: the path of a file")
+    if not folder.is_dir():
+        raise ConfigError(f"--output: {path}: the folder {folder} does not exist")
+    if any(target.exists() and target.samefile(other) for other in inputs if os.path.exists(other)):
+        raise ConfigError(f"--output: {path} is the input; allowed: the path of another file")
+    probe = folder / f".{target.name}.{os.getpid()}.probe"
+    try:
+        probe.touch(exist_ok=False)
+        probe.unlink()
+    except OSError as error:
+        raise ConfigError(f"--output: {path} cannot be written: {error.strerror}") from None
+
+
+def set_threads(threads: int) -> None:
+    """Nothing; numba, which must not be loaded yet, will use this many threads."""
+    os.environ["NUMBA_NUM_THREADS"] = str(threads)
+
+
+def run(point: Point, threads: int, output: str) -> str:
+    """Line that tells the outcome of a run, whose record is then at `output`."""
+    from subslide import records, solver
+
+    result = solver.solve(point, threads=threads, progress=_progress() if sys.stderr.isatty() else None)
+    records.write(output, [result])
+    return f"{summary(result)} -> {output}"
+
+
+def batch(spec: str, threads: int, output: str) -> Iterator[str]:
+    """Lines, one as each run of a batch file ends; then its record is at `output`, its SHA-256 in `output`.sha256."""
+    from subslide import records, solver
+
+    points = read_batch(spec)
+    results = []
+    for point in points:
+        results.append(solver.solve(point, threads=threads))
+        yield summary(results[-1])
+    Path(output + ".sha256").unlink(missing_ok=True)
+    records.write(output, results)
+    write_text(output + ".sha256", f"{file_hash(output)}  {Path(output).name}\n")
+    yield f"{len(results)} runs -> {output}"
+
+
+def read_batch(spec: str) -> list[Point]:
+    """Points of a batch file, each checked against its id."""
+    try:
+        rows = json.loads(Path(spec).read_text(encoding="utf-8"))["points"]
+        points = {row.pop("id"): from_dict(row) for row in rows}
+    except FileNotFoundError:
+        raise ConfigError(f"{spec}: there is no such file") from None
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise ConfigError(f"{spec}: not a batch file ({type(error).__name__}: {error})") from None
+    for name, point in points.items():
+        if point.id != name:
+            raise ConfigError(f"{spec}: the values of {name} belong to {point.id}; was the file edited?")
+    return list(points.values())
+
+
+def warm(kernels: tuple[str, ...]) -> Iterator[str]:
+    """Lines, one for each 'model:order:dtype' whose kernels are then in the cache: each solves a tiny run."""
+    for kernel in kernels:
+        parts = dict(zip(("model", "order", "dtype"), kernel.split(":"), strict=False))
+        values = {key: schema.checked(key, _value_of_text(text)) for key, text in parts.items()}
+        point = config.make_point({"r": 0, "cells": 20, "t_end": 0.01, **values})
+        from subslide import solver
+
+        solver.solve(point)
+        yield f"compiled {kernel}"
+
+
+def file_hash(path: Path | str) -> str:
+    """SHA-256 (hex) of a file's bytes, as `sha256sum` prints it."""
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def summary(result) -> str:
+    """One line on a solved run: id, status, deposit, surface, model, steps and time."""
+    import numpy as np
+
+    radius = result.point.radius
+    parts = [f"{result.point.id}: {result.status}"]
+    if result.status != "ok":
+        parts[0] += f" ({result.status_detail})"
+    if np.isfinite(result.L_f[0]):
+        parts.append(f"L_f = {result.L_f[0]:.4g} m = {result.L_f[0] / radius:.4g} R")
+    if np.isfinite(result.max_abs_eta).any():
+        parts.append(f"peak max|η| = {np.nanmax(result.max_abs_eta):.4g} m")
+    if np.isfinite(result.time_at_rest):
+        parts.append(f"at rest at {result.time_at_rest:.4g} s")
+    parts.append(f"{result.model}, {result.steps} steps in {result.wall_seconds:.3g} s")
+    return ", ".join(parts)
+
+
+def _value_of_text(text):
+    """Number, list of numbers or text that the text of an option stands for."""
+    if not isinstance(text, str):
+        return text
+    if "," in text:
+        return [_value_of_text(part.strip()) for part in text.split(",")]
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            continue
+    return text
+
+
+def _progress():
+    """Function that shows the fraction done on the terminal, once a run has taken a while."""
+    import time
+
+    start = last = time.monotonic()
+
+    def show(fraction: float) -> None:
+        nonlocal last
+        now = time.monotonic()
+        if now - start > 2 and now - last > 0.5:
+            last = now
+            print(f"\r{fraction:4.0%} ", end="\r", file=sys.stderr, flush=True)
+
+    return show
