@@ -1,0 +1,37 @@
+# Validates the configuration, plans the study, includes the rules and names the targets.
+from pathlib import Path
+
+from snakemake.exceptions import WorkflowError
+
+from subslide import figures, ledger, source_hash
+from subslide.config import make_study
+from subslide.schema import ConfigError
+
+if not workflow.overwrite_configfiles:  # never merged with a file that the user gives
+
+    configfile: "config/paper.yaml"
+
+
+try:
+    STUDY = make_study(config)
+except ConfigError as error:
+    raise WorkflowError(f"configuration: {error}") from None
+
+RESULTS = Path("results", STUDY.name)
+PLAN = ledger.plan(STUDY, RESULTS, extend=workflow.is_main_process)
+
+
+include: "workflow/rules/solve.smk"
+include: "workflow/rules/tables.smk"
+include: "workflow/rules/figures.smk"
+include: "workflow/rules/report.smk"
+
+
+rule all:
+    default_target: True
+    input:
+        rules.report.output,
+        TABLES,
+        RECORDS,
+        CHECKSUMS,
+        FIGURES,
