@@ -1,0 +1,28 @@
+"""The paper's study, made up, for the tests of figures."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from made_up import MadeUpResults, grid
+
+
+@pytest.fixture(scope="session")
+def paper():
+    """The paper's fifteen runs."""
+    return MadeUpResults(grid((1, 2, 10), (0, 0.2, 0.4, 0.6, 0.8)))
+
+
+@pytest.fixture(scope="session")
+def large():
+    """More values of a_H, r and a_2 than a figure shows."""
+    return MadeUpResults(grid((0.5, 1, 2, 3, 4, 10), np.arange(9) / 10) + grid((1, 10), (0, 0.4), a_2=1.0))
+
+
+@pytest.fixture(autouse=True)
+def _close():
+    yield
+    plt.close("all")

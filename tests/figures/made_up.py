@@ -1,0 +1,119 @@
+"""Made-up studies with plausible shapes, in the interface that figures read; no solver."""
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from subslide import fields
+
+TIMES = (0.0, 0.08, 0.16, 0.24, 0.54)
+DEFAULTS = {
+    "numerics": "paper",
+    "a_2": 0.56,
+    "delta": 32.0,
+    "radius": 0.0705,
+    "g": 9.81,
+    "scene": "cylinder",
+    "model": "quarter",
+    "scheme": "ifcph",
+    "order": 1,
+    "cells": 200,
+    "dtype": "float64",
+    "cfl": 0.9,
+    "boundary": "open",
+    "t_end": "rest",
+    "resolved_model": "quarter",
+    "status": "ok",
+    "status_detail": "",
+}
+
+
+class MadeUpResults:
+    """A study of runs with given values; `records` holds one dataset each."""
+
+    def __init__(self, runs):
+        self.records = {f"p{k:012d}": made_up_run({**DEFAULTS, **values}) for k, values in enumerate(runs)}
+        self.runs = pd.DataFrame({"id": key, **data.attrs["row"]} for key, data in self.records.items())
+        self.series = pd.concat([tidy(key, data) for key, data in self.records.items()], ignore_index=True)
+
+    def select(self, **values):
+        """Rows of the table of runs whose columns equal the given values."""
+        return self.runs[np.logical_and.reduce([self.runs[key] == value for key, value in values.items()])]
+
+    def record(self, name):
+        """Dataset of one run."""
+        return self.records[name]
+
+
+def made_up_run(row):
+    """Dataset of one run: a front that eases to its final length, a paraboloid under it, a ring of waves."""
+    radius, height = row["radius"], row["a_2"] * row["radius"]
+    dx = 0.6 / row["cells"] * radius / 0.0705
+    x = (np.arange(row["cells"] // 2) + 0.5) * dx
+    scale = np.sqrt(radius / 0.0705)
+    rest = 0.2 * scale / np.sqrt(1 - row["r"])
+    final = radius * (1.9 + 0.1 * np.log(row["a_H"]) - 0.2 * row["r"])
+    failed = row["status"] == "diverged"
+    time = np.linspace(0, row.pop("until", 0.6) * scale, 60)
+    if failed:
+        time = time[time < 0.11 * scale]
+    front = radius + (final - radius) * np.sin(np.pi / 2 * np.minimum(time / rest, 1)) ** 1.2
+    wave = (
+        0.1 * height / row["a_H"] * (1 - 0.6 * row["r"]) * np.sin(np.pi * np.minimum(time / 0.3 / scale, 1))
+    )
+    shots = np.array([t * scale for t in TIMES if t * scale <= time[-1]] + [time[-1]])
+    speed = np.sqrt(row["g"] * height * (1 + row["a_H"]))
+    h2 = np.array([depth(x, np.interp(t, time, front), radius, height) for t in shots])
+    eta = np.array(
+        [np.interp(t, time, wave) * np.cos((x - speed * t) / radius * 2) / (1 + x / radius) for t in shots]
+    )
+    if row["resolved_model"] == "one-layer":
+        eta, wave = eta * np.nan, wave * np.nan
+    if failed:
+        front[-1] = wave[-1] = np.nan
+    thresholds = np.array(fields.FRONT_THRESHOLDS)
+    fronts = front * (1 - 4 * (thresholds[:, None] - 0.01))
+    lengths = np.full(3, np.nan) if failed else fronts[:, -1]
+    row = {**row, "dx": dx, "time_at_rest": np.nan if failed else rest}
+    for name, value in zip(("L_f_1pc", "L_f_3pc", "L_f_5pc"), lengths, strict=True):
+        row |= {name: value, f"{name}_over_R": value / radius}
+    return xr.Dataset(
+        {
+            "time": ("step", time),
+            "x_front": (("front_threshold", "step"), fronts),
+            "max_abs_eta": ("step", wave),
+            "max_abs_eta_outside": ("step", 0.7 * wave),
+            "snapshot_time": ("snapshot", shots),
+            "h2": (("snapshot", "x"), h2),
+            "eta": (("snapshot", "x"), eta),
+            "L_f": ("front_threshold", lengths),
+            "time_at_rest": row["time_at_rest"],
+            "status": row["status"],
+        },
+        {"x": x, "front_threshold": thresholds},
+        {"row": row},
+    )
+
+
+def depth(x, front, radius, height):
+    """Depth that holds the column's volume between the axis and `front`."""
+    steep = np.clip((front - radius) / radius, 0.02, None)
+    shape = np.clip(1 - (x / front) ** (2 / steep), 0, None)
+    return shape * min(height, height * radius**2 / max(np.sum(2 * shape * x) * (x[1] - x[0]), 1e-12))
+
+
+def tidy(name, data):
+    """Series of a dataset as rows of id, time, quantity, value."""
+    values = {
+        f"x_front_{100 * t:.0f}pc": data["x_front"].values[k] for k, t in enumerate(fields.FRONT_THRESHOLDS)
+    }
+    values |= {key: data[key].values for key in ("max_abs_eta", "max_abs_eta_outside")}
+    parts = (
+        pd.DataFrame({"time": data["time"].values, "quantity": key, "value": v}) for key, v in values.items()
+    )
+    return pd.concat(parts, ignore_index=True).assign(id=name)
+
+
+def grid(a_H, r, **values):
+    """Values of runs: every a_H with every r."""
+    return [{"a_H": float(a), "r": float(b), **values} for a in a_H for b in r]

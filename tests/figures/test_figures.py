@@ -1,0 +1,152 @@
+"""Every figure draws, says what it shows with units, and hides no failed run."""
+
+import importlib
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from made_up import MadeUpResults, grid
+
+from subslide import figures
+from subslide.figures import _slices, _style, _words, fig04_profiles_r0
+
+NAMES = figures.names()
+CAPTIONS = Path(__file__).parents[2] / "workflow" / "report"
+UNIT = re.compile(r"\((mm|cm|m|km|ms|s|%)\)|/R\$|/H_2\$|^\$r\$$")
+
+
+def draw(name, results):
+    """The figure called `name` of a study."""
+    return importlib.import_module(f"subslide.figures.{name}").draw(results)
+
+
+def seen(figure):
+    """Axes of a figure that are shown and hold something."""
+    return [ax for ax in figure.axes if ax.get_visible() and ax.has_data()]
+
+
+def words(figure):
+    """All text of a figure: title, notes and legends."""
+    titles = [ax.get_title() for ax in figure.axes]
+    return " ".join([figure.get_suptitle(), *titles, *(text.get_text() for text in figure.texts)]).replace(
+        "\n", " "
+    )
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_labels_have_units(name, paper):
+    figure = draw(name, paper)
+    labels = [text for ax in seen(figure) for text in (ax.get_xlabel(), ax.get_ylabel()) if text]
+    assert labels
+    assert [text for text in labels if not UNIT.search(text)] == []
+    assert figure.get_suptitle()
+    assert "first-order IFCPH, cells of 3 mm" in words(figure)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_is_described(name):
+    about = figures.about(name)
+    assert (CAPTIONS / f"{name}.rst").read_text(encoding="utf-8").strip()
+    assert re.match(r"\d \w", about.category)
+    assert about.title != name
+    assert isinstance(about.needs, dict)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_any_study_that_has_the_needs(name):
+    needs = figures.about(name).needs
+    few = grid(needs.get("a_H", (3,)), needs.get("r", (0.3,)), radius=7.0, a_2=0.8, delta=25.0, order=2)
+    figure = draw(name, MadeUpResults(few))
+    assert seen(figure)
+    assert "Not converged" not in words(figure)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_large_study_says_what_is_left_out(name, large):
+    text = words(draw(name, large))
+    assert "$a_2$ = 0.56" in text
+    assert "Also in this study, not shown here: $a_2$ = 1." in text
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_failed_runs_are_named(name):
+    runs = grid((1, 2, 10), (0, 0.4, 0.8))
+    for run in runs:
+        if run["a_H"] == 1 and run["r"] in (0, 0.4):
+            run["status"] = "diverged"
+        elif run["r"] == 0.8:
+            run["status"] = "not_at_rest"
+    text = words(draw(name, MadeUpResults(runs)))
+    assert "Status diverged (a value is not finite" in text
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_short_run_of_the_grains_alone(name, tmp_path):
+    needs = figures.about(name).needs
+    values = {"resolved_model": "one-layer", "t_end": "0.05", "until": 0.05}
+    figure = draw(name, MadeUpResults(grid(needs.get("a_H", (1,)), needs.get("r", (0,)), **values)))
+    figure.savefig(tmp_path / "figure.svg", bbox_inches="tight")
+    if "surface" in figures.about(name).title:
+        assert "water surface" in words(figure)
+
+
+def test_every_run_of_a_slice_is_a_line(paper):
+    axes = seen(draw("fig06_fronts", paper))
+    assert [len(ax.get_lines()) for ax in axes[:3]] == [5, 5, 5]
+    looks = {(line.get_color(), line.get_marker()) for line in axes[0].get_lines()}
+    assert len(looks) == 5
+
+
+def test_laboratory_law():
+    assert fig04_profiles_r0.law(0.56) == pytest.approx(1.6944)
+    assert fig04_profiles_r0.law(4.0) == pytest.approx(4.2)
+
+
+def test_depth_at_the_laboratory_runout_is_measured(paper):
+    record = paper.record(paper.select(a_H=2.0, r=0.0)["id"].iloc[0])
+    depth = 100 * np.interp(1.6944 * 0.0705, record["x"], record["h2"].isel(snapshot=-1)) / (0.56 * 0.0705)
+    assert f"{depth:.1f} % ($a_H$ = 2)" in words(draw("fig04_profiles_r0", paper))
+
+
+def test_slice_keeps_one_value_of_what_does_not_vary():
+    runs = grid((1, 2), (0, 0.4)) + grid((1, 2), (0, 0.4), cells=100) + grid((1,), (0,), delta=20.0)
+    chosen = _slices.cut(MadeUpResults(runs))
+    assert set(chosen.runs["cells"]) == {200}
+    assert set(chosen.runs["delta"]) == {32.0}
+    assert not chosen.runs.duplicated(["a_H", "r"]).any()
+    assert "$\\delta$ = 20" in chosen.notes[0]
+    assert "cells = 100" in chosen.notes[0]
+
+
+def test_looks_differ_in_grey():
+    looks = _style.keys_to((0, 0.2, 0.4, 0.6, 0.8)).values()
+    grey = [np.dot(look["color"][:3], (0.299, 0.587, 0.114)) for look in looks]
+    assert np.all(np.diff(grey) > 0.08)
+    assert len({str(look["linestyle"]) for look in looks}) == 5
+
+
+@pytest.mark.parametrize(
+    ("length", "name", "factor"), [(0.04, "mm", 1e3), (0.2, "cm", 1e2), (40.0, "m", 1.0), (9e3, "km", 1e-3)]
+)
+def test_unit_of_lengths(length, name, factor):
+    assert _words.length_unit(length) == (name, factor)
+
+
+def test_a_failed_run_has_no_final_profile():
+    runs = grid((1,), (0, 0.4, 0.8))
+    runs[1]["status"] = "diverged"
+    figure = draw("fig05_h2_by_r", MadeUpResults(runs))
+    assert [len(ax.get_lines()) - 1 for ax in seen(figure)] == [3, 3, 2, 2, 2, 2]
+    assert "$r$ = 0.4, end of the run" in words(figure)
+
+
+def test_the_papers_values_come_first(large):
+    chosen = _slices.cut(large, most={"a_H": 4, "r": 6}).runs
+    assert chosen["a_H"].unique() == pytest.approx([0.5, 1, 2, 10])
+    assert chosen["r"].unique() == pytest.approx([0, 0.2, 0.4, 0.6, 0.8])
+
+
+def test_a_study_without_the_run_gets_an_empty_figure():
+    figure = draw("fig10_view3d", MadeUpResults(grid((1,), (0,)) + grid((2,), (0.4,))))
+    assert "no such run (a_H = 1, r = 0.4)" in figure.get_suptitle()

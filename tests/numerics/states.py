@@ -1,0 +1,62 @@
+"""Models built from arrays, for states that no scene makes."""
+
+import math
+
+import numpy as np
+
+from subslide.kernels import clock as k
+from subslide.kernels.arrays import Scene
+from subslide.kernels.viscosity import SCHEMES
+from subslide.models.axial import Axial
+from subslide.models.grid import Grid
+from subslide.models.plane import Plane
+
+THRESHOLDS = (0.01, 0.03, 0.05)
+
+
+def scene(dx, layers=2, scheme="ifcph", order=1, r=0.4, friction=1.0, cfl=0.9):
+    """Scaled numbers of a run in double precision."""
+    real = np.float64
+    return Scene(layers, SCHEMES[scheme], order, real(r), real(friction), real(dx), real(cfl), real(1e-6))
+
+
+def axial(edges, h1, u1, h2, u2, *, level, radial=False, walls=(True, True), **options):
+    """Model of one dimension on cells between `edges`."""
+    dx = edges[1] - edges[0]
+    state = tuple(
+        np.broadcast_to(np.asarray(values, float), (len(edges) - 1,)) for values in (h1, u1, h2, u2)
+    )
+    grid = Grid("test", dx, edges)
+    watched = len(edges)
+    return Axial(
+        "test", scene(dx, **options), state, grid, radial=radial, walls=walls, level=level, watched=watched
+    )
+
+
+def plane(edges, h1, h2, *, level, u1=0.0, v1=0.0, u2=0.0, v2=0.0, walls=(True,) * 4, **options):
+    """Model of the plane on square cells between `edges` on both axes."""
+    dx = edges[1] - edges[0]
+    shape = (len(edges) - 1,) * 2
+    state = tuple(np.broadcast_to(np.asarray(values, float), shape) for values in (h1, u1, v1, h2, u2, v2))
+    grid = Grid("test", dx, edges)
+    return Plane("test", scene(dx, **options), state, grid, walls=walls, level=level, watched=len(edges))
+
+
+def advance(model, stop=math.inf, steps=None):
+    """Samples of the time loop up to the scaled time `stop`, or of `steps` steps."""
+    clock = np.array([0.0, stop if math.isfinite(stop) else 1e9, math.inf, -1.0])
+    chunks = []
+    while True:
+        size = 513 if steps is None else steps + 1
+        samples = np.empty((size, k.COLUMNS))
+        counters = np.zeros(2, np.int64)
+        model.advance(THRESHOLDS, clock, samples, counters)
+        chunks.append(samples[: counters[k.SAMPLES]])
+        if counters[k.OUTCOME] != k.FULL or steps is not None:
+            return np.concatenate(chunks), int(counters[k.OUTCOME])
+
+
+def inner(model, name):
+    """One field of the state without its ghost cells."""
+    array = getattr(model.cells, name)
+    return array[(slice(2, -2),) * array.ndim]

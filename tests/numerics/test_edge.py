@@ -1,0 +1,162 @@
+"""Riemann solvers, each in the registry, and the fluxes of one edge."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from test_waves import matrix
+
+from subslide.kernels.edge import edge_fluxes, grain_edge_fluxes
+from subslide.kernels.viscosity import SCHEMES, coefficients
+from subslide.kernels.waves import inner_speeds, outer_speeds
+
+depths = st.floats(1e-3, 10.0)
+speeds = st.floats(-1.5, 1.5)
+ratios = st.floats(0.0, 0.95)
+states = st.tuples(depths, speeds, depths, speeds)
+NODES = {"rusanov": "max", "hll": "two", "ifcp": "three", "ifcph": "three"}
+
+
+def polynomial(scheme, s_l, s_int, s_r, x, dry=False):
+    a0, a1, a2 = coefficients(SCHEMES[scheme], s_l, s_int, s_r, dry)
+    return a0 + a1 * x + a2 * x * x
+
+
+def side(s_l, s_r):
+    return np.sign(s_r) if abs(s_r) > abs(s_l) else np.sign(s_l)
+
+
+def test_every_scheme_is_tested():
+    assert set(NODES) == set(SCHEMES)
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+@given(s_l=st.floats(-5, 5), width=st.floats(1e-3, 8), part=st.floats(0, 1))
+def test_polynomial_takes_the_absolute_value_at_its_nodes(scheme, s_l, width, part):
+    s_r = s_l + width
+    s_int = side(s_l, s_r) * part * max(abs(s_l), abs(s_r))
+    nodes = {"two": [s_l, s_r], "three": [s_l, s_r, s_int], "max": []}[NODES[scheme]]
+    if s_l >= 0 or s_r <= 0:
+        nodes = [] if scheme == "rusanov" else [s_l, s_r]
+    for node in nodes:
+        assert np.isclose(
+            polynomial(scheme, s_l, s_int, s_r, node), abs(node), atol=1e-9 * (1 + abs(s_l) + abs(s_r))
+        )
+    for node in (s_l, s_r):
+        assert polynomial(scheme, s_l, s_int, s_r, node) >= abs(node) - 1e-9
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+@settings(max_examples=200, deadline=None)
+@given(h1=depths, u1=speeds, h2=depths, shear=st.floats(-0.4, 0.4), r=ratios)
+def test_viscosity_is_at_least_upwind_on_all_four_waves(scheme, h1, u1, h2, shear, r):
+    u2 = u1 + shear * np.sqrt((1 - r) * (h1 + h2))
+    values = np.sort(np.linalg.eigvals(matrix(h1, u1, h2, u2, r)).real)
+    s_l, s_r = values[0], values[3]
+    s_int = side(s_l, s_r) * max(abs(values[1]), abs(values[2]))
+    for value in values:
+        p = polynomial(scheme, s_l, s_int, s_r, value)
+        assert p >= abs(value) - 1e-7 * max(abs(s_l), abs(s_r))
+
+
+def test_ifcph_is_hll_at_a_dry_edge_and_ifcp_elsewhere():
+    speeds = (-1.0, -0.4, 2.0)
+    assert coefficients(SCHEMES["ifcph"], *speeds, True) == coefficients(SCHEMES["hll"], *speeds, True)
+    assert coefficients(SCHEMES["ifcph"], *speeds, False) == coefficients(SCHEMES["ifcp"], *speeds, False)
+
+
+def fluxes(scheme, r, w_i, w_j, stuck=False):
+    """(advective and viscous flux, pressure product), each on (h1, q1, h2, q2)."""
+    bounds = np.array([outer_speeds(*w, r) for w in (w_i, w_j)])
+    d_eta = (w_j[0] + w_j[2]) - (w_i[0] + w_i[2])
+    f1, m1, p1, f2, m2, p2 = edge_fluxes(
+        SCHEMES[scheme], r, 1e-6, stuck, bounds[:, 0].min(), bounds[:, 1].max(), *w_i, *w_j, d_eta
+    )
+    return np.array([f1, m1, f2, m2]), np.array([0, p1, 0, p2])
+
+
+def conserved(w):
+    h1, u1, h2, u2 = w
+    return np.array([h1, h1 * u1, h2, h2 * u2])
+
+
+def advection(w):
+    h1, u1, h2, u2 = w
+    return np.array([h1 * u1, h1 * u1**2, h2 * u2, h2 * u2**2])
+
+
+def roe_mean(w_i, w_j):
+    def velocity(h_i, u_i, h_j, u_j):
+        a, b = np.sqrt(h_i), np.sqrt(h_j)
+        return (a * u_i + b * u_j) / (a + b)
+
+    h1, h2 = (w_i[0] + w_j[0]) / 2, (w_i[2] + w_j[2]) / 2
+    return h1, velocity(w_i[0], w_i[1], w_j[0], w_j[1]), h2, velocity(w_i[2], w_i[3], w_j[2], w_j[3])
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+@given(w=states, r=ratios)
+def test_equal_states_exchange_only_their_own_flux(scheme, w, r):
+    flux, pressure = fluxes(scheme, r, w, w)
+    np.testing.assert_array_equal(pressure, 0)
+    np.testing.assert_allclose(flux, advection(w), rtol=1e-14, atol=1e-14)
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+@settings(deadline=None)
+@given(w_i=states, w_j=states, r=ratios)
+def test_fluctuations_add_up_to_the_roe_matrix_times_the_jump(scheme, w_i, w_j, r):
+    flux, pressure = fluxes(scheme, r, w_i, w_j)
+    left = flux - advection(w_i) + pressure / 2
+    right = advection(w_j) - flux + pressure / 2
+    jump = conserved(w_j) - conserved(w_i)
+    scale = 1 + np.abs(advection(w_i)).max() + np.abs(advection(w_j)).max() + np.abs(pressure).max()
+    np.testing.assert_allclose(left + right, matrix(*roe_mean(w_i, w_j), r) @ jump, atol=1e-12 * scale)
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+@settings(deadline=None)
+@given(w_i=states, w_j=states, r=ratios)
+def test_viscosity_is_the_polynomial_of_the_roe_matrix(scheme, w_i, w_j, r):
+    mean = roe_mean(w_i, w_j)
+    speeds = np.array([outer_speeds(*w, r) for w in (w_i, w_j, mean)])
+    s_l, s_r = speeds[:, 0].min(), speeds[:, 1].max()
+    centre, half = inner_speeds(*mean, r, *speeds[2])
+    s_int = side(s_l, s_r) * (abs(centre) + np.sqrt(max(half, 0)))
+    a0, a1, a2 = coefficients(SCHEMES[scheme], s_l, s_int, s_r, False)
+    a = matrix(*mean, r)
+    jump = conserved(w_j) - conserved(w_i)
+    viscous = (a0 * np.eye(4) + a1 * a + a2 * a @ a) @ jump
+    flux, _ = fluxes(scheme, r, w_i, w_j)
+    expected = (advection(w_i) + advection(w_j) - viscous) / 2
+    np.testing.assert_allclose(
+        flux, expected, atol=1e-10 * (1 + np.abs(expected).max() + np.abs(a).max() ** 2)
+    )
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+@settings(deadline=None)
+@given(w_i=states, w_j=states, r=ratios, stuck=st.booleans())
+def test_a_mirrored_edge_has_mirrored_fluxes_to_the_bit(scheme, w_i, w_j, r, stuck):
+    def mirrored(w):
+        return w[0], -w[1], w[2], -w[3]
+
+    flux, pressure = fluxes(scheme, r, w_i, w_j, stuck)
+    other, push = fluxes(scheme, r, mirrored(w_j), mirrored(w_i), stuck)
+    np.testing.assert_array_equal(other, flux * [-1, 1, -1, 1])
+    np.testing.assert_array_equal(push, -pressure)
+
+
+def test_no_grain_passes_a_stuck_edge_even_under_a_wave():
+    flux, _ = fluxes("ifcph", 0.6, (1.0, 0.3, 0.5, 0.0), (1.2, -0.1, 0.4, 0.0), stuck=True)
+    assert flux[2] == 0
+    assert flux[0] != 0
+
+
+@given(h_i=depths, u_i=speeds, h_j=depths, u_j=speeds)
+def test_grains_alone_are_consistent(h_i, u_i, h_j, u_j):
+    f, m, p = grain_edge_fluxes(SCHEMES["hll"], 1e-6, False, h_i, u_i, h_i, u_i)
+    np.testing.assert_allclose([f, m, p], [h_i * u_i, h_i * u_i**2, 0], atol=1e-13)
+    f, m, p = grain_edge_fluxes(SCHEMES["hll"], 1e-6, False, h_i, u_i, h_j, u_j)
+    back = grain_edge_fluxes(SCHEMES["hll"], 1e-6, False, h_j, -u_j, h_i, -u_i)
+    assert back == (-f, m, -p)

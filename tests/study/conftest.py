@@ -1,0 +1,73 @@
+"""Runs made up without a solver, so that files and tables are tested apart from numerics."""
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from subslide.points import Point
+
+
+def made_up_run(point: Point, steps: int = 20, grown: int = 0, **changes) -> SimpleNamespace:
+    """Result as `solver.solve` returns it, of simple formulas: the front goes from R to 2 R in a second."""
+    cells = round(4.2553 * point.radius / point.dx) + grown
+    plane = point.model == "plane"
+    x = (np.arange(-cells if plane else 0, cells) + 0.5) * point.dx
+    height = point.a_2 * point.radius
+    time = np.linspace(0, 1, steps + 1)
+    front = np.outer([1.2, 1.1, 1.0], point.radius * (1 + time))
+    snapshots = np.array([0, 0.5, 1.0])
+    run = SimpleNamespace(
+        point=point,
+        model="radial" if point.model == "auto" else point.model,
+        dx=point.dx,
+        x=x,
+        time=time,
+        x_front=front,
+        max_abs_eta=height * np.sin(np.pi * time),
+        max_abs_eta_outside=height * np.sin(np.pi * time) / 2,
+        sediment_volume=np.full(steps + 1, 2.0),
+        water_volume=np.full(steps + 1, 3.0),
+        energy=3 - time,
+        nonhyperbolic_cells=np.zeros(steps + 1),
+        snapshot_time=snapshots,
+        h2=np.tile(height * np.exp(-(x**2)), (3, 1)),
+        eta=np.zeros((3, len(x))),
+        h2_diagonal=np.zeros((3, len(x))) if plane else None,
+        h2_field=np.ones((3, len(x), len(x)), np.float32) if point.fields else None,
+        eta_field=np.zeros((3, len(x), len(x)), np.float32) if point.fields else None,
+        L_f=front[:, -1],
+        status="ok",
+        status_detail="at rest",
+        steps=steps,
+        wall_seconds=0.5,
+        time_at_rest=1.0,
+        box_half_width=cells * point.dx,
+    )
+    vars(run).update(changes)
+    return run
+
+
+@pytest.fixture
+def make_run():
+    """Function that makes up the result of a point."""
+    return made_up_run
+
+
+@pytest.fixture
+def write_yaml(tmp_path):
+    """Function that writes text to a configuration and returns its path."""
+
+    def write(text: str, name: str = "study.yaml"):
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+@pytest.fixture(scope="session")
+def root() -> Path:
+    """Folder of the repository."""
+    return Path(__file__).resolve().parents[2]

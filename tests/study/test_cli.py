@@ -1,0 +1,161 @@
+"""The command line: one line for each mistake, exit statuses, and nothing half-written."""
+
+import os
+import subprocess
+import sys
+import time
+
+import pytest
+
+from subslide import schema
+from subslide.__main__ import main
+from subslide.points import RUN_KEYS
+from subslide.records import read
+
+QUICK = ("--model", "radial", "--cells", "20", "--t-end", "0.02")
+BAD = {
+    ("--r", "1.5"): ("--r", "1.5", "from 0 to below 1"),
+    ("--a-H", "-1"): ("--a-H", "-1", "from 0 to 1000"),
+    ("--a-H", "nan"): ("--a-H", "nan"),
+    ("--a-H", "1,2"): ("2 values",),
+    ("--a-H", ""): ("--a-H", "''"),
+    ("--cells", "ten"): ("--cells", "ten", "whole number"),
+    ("--scheme", "hlll"): ("--scheme", "hlll", "did you mean 'hll'?"),
+    ("--order", "7"): ("--order", "7"),
+    ("--t-end", "rset"): ("--t-end", "rset", "did you mean 'rest'?"),
+    ("--deltta", "30"): ("--deltta", "--delta"),
+    ("--threads", "0"): ("--threads", "0"),
+    ("--config", "absent.yaml"): ("absent.yaml", "no such file"),
+    ("extra",): ("extra",),
+}
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def complaint(capsys, *arguments):
+    """One line on stderr of a command that must end with status 2 and write nothing."""
+    before = sorted(os.listdir())
+    assert main([*arguments]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("subslide: ")
+    assert err.count("\n") == 1
+    assert sorted(os.listdir()) == before
+    return err
+
+
+@pytest.mark.parametrize("arguments", BAD, ids=" ".join)
+def test_bad_options_of_run(arguments, capsys):
+    line = complaint(capsys, "run", *QUICK, *arguments, "-o", "x.nc")
+    for part in BAD[arguments]:
+        assert part in line
+
+
+@pytest.mark.parametrize(
+    ("text", "part"),
+    [
+        ("r: 1.5", "point.yaml: r: 1.5"),
+        ("cel: 1", "cells"),
+        ("a_H: [1, 2]", "2 values"),
+        ("a: [", "not valid YAML"),
+    ],
+)
+def test_bad_configuration_of_run(text, part, capsys, write_yaml):
+    write_yaml(text, "point.yaml")
+    assert part in complaint(capsys, "run", "--config", "point.yaml", "-o", "x.nc")
+
+
+def test_bad_outputs(capsys, tmp_path, write_yaml):
+    assert "does not exist" in complaint(capsys, "run", *QUICK, "-o", "absent/x.nc")
+    assert "is a folder" in complaint(capsys, "run", *QUICK, "-o", str(tmp_path))
+    write_yaml("r: 0", "point.yaml")
+    assert "is the input" in complaint(capsys, "run", "--config", "point.yaml", "-o", "point.yaml")
+    assert "--output" in complaint(capsys, "run", *QUICK)
+    assert "cannot be written" in complaint(capsys, "run", *QUICK, "-o", "/proc/x.nc")
+
+
+def test_bad_verbs_and_their_inputs(capsys):
+    assert "did you mean 'run'?" in complaint(capsys, "rnu")
+    assert "no such file" in complaint(capsys, "check", "absent.yaml")
+    assert "no such file" in complaint(capsys, "batch", "absent.json", "-o", "x.nc")
+    assert "model: radal" in complaint(capsys, "warm", "radal:1:float64")
+    assert "nowhere" in complaint(capsys, "tables", "nowhere")
+    assert "figure: absent" in complaint(capsys, "figure", "absent", "--results", ".", "-o", ".")
+
+
+def test_help_states_unit_default_and_range_of_every_key(capsys):
+    assert main(["run", "--help"]) == 0
+    text = " ".join(capsys.readouterr().out.split())
+    for key in RUN_KEYS:
+        assert "--" + key.replace("_", "-") in text
+        about = schema.properties()[key]
+        if about.get("type") in ("number", "integer"):
+            assert schema.allowed(key) in text
+            assert f"[default: {about['default']}]" in text
+    for words in ("[degree]", "[m]", "Exit status"):
+        assert words in text
+
+
+def test_check_tells_what_a_study_holds(capsys, root):
+    assert main(["check", str(root / "config/paper.yaml")]) == 0
+    assert "study 'paper', 15 runs" in capsys.readouterr().out
+
+
+def test_run_prints_one_line_and_options_win_over_the_file(capsys, write_yaml):
+    write_yaml("r: 0.1\na_H: 3\nmodel: radial\ncells: 20\nt_end: 0.02\n", "point.yaml")
+    assert (
+        main(["run", "--config", "point.yaml", "--a-H", "2", "--snapshot-times", "0,0.01", "-o", "x.nc"]) == 0
+    )
+    out, _ = capsys.readouterr()
+    assert out.count("\n") == 1
+    found, attrs = read("x.nc")
+    assert (found["a_H"].values[0], found["r"].values[0]) == (2, 0.1)
+    assert attrs["status"] in ("ok", "not_at_rest")
+    assert os.listdir() in (["x.nc", "point.yaml"], ["point.yaml", "x.nc"])
+
+
+def test_a_warm_run_starts_light():
+    """No xarray, pandas, dask or plotting on the way to a record: they would double its time."""
+    code = (
+        "import sys; from subslide.__main__ import main;"
+        f"assert main(['run', {', '.join(map(repr, QUICK))}, '-o', 'x.nc']) == 0;"
+        "heavy = {'xarray', 'pandas', 'dask', 'matplotlib', 'seaborn', 'jsonschema', 'snakemake'} & set(sys.modules);"
+        "assert not heavy, heavy"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+    start = time.monotonic()
+    subprocess.run([sys.executable, "-m", "subslide", "run", *QUICK, "-o", "y.nc"], check=True)
+    assert time.monotonic() - start < 6  # about 1 s on a quiet core
+
+
+def test_a_batch_leaves_a_checksum_beside_its_record(capsys):
+    from subslide import config, jobs, ledger
+
+    study = config.make_study({"study": "t", "a_H": [1, 2], "model": "radial", "cells": 20, "t_end": 0.02})
+    from pathlib import Path
+
+    plan = ledger.plan(study, Path("t"), extend=True)
+    assert main(["batch", f"t/batches/{next(iter(plan.batches))}.json", "-o", "b.nc"]) == 0
+    assert capsys.readouterr().out.count("\n") == 3
+    assert read("b.nc")[0]["id"].values.tolist() == [p.id for p in study.points]
+    assert Path("b.nc.sha256").read_text() == f"{jobs.file_hash('b.nc')}  b.nc\n"
+
+
+def test_kernels_are_cached_in_a_folder_of_their_sources(tmp_path):
+    code = "import subslide, os; print(os.environ['NUMBA_CACHE_DIR'])"
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+
+    def folder(environment):
+        done = subprocess.run(
+            [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True
+        )
+        return done.stdout.strip()
+
+    first = folder(environment)
+    assert first.startswith(str(tmp_path / "cache"))
+    assert folder({**environment, "NUMBA_CACHE_DIR": first}) == first  # as a child process sees it
+    unwritable = {**environment, "NUMBA_CACHE_DIR": "/proc/none"}
+    assert os.path.isdir(folder(unwritable))

@@ -1,0 +1,168 @@
+"""The real workflow on a small study: what runs, what does not run again, and what is mended."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+import pandas as pd
+import pytest
+
+STUDY = "study: small\na_H: [1, 2]\nr: 0.4\nmodel: radial\ncells: 20\nt_end: 0.05\nfigures: none\n"
+
+pytestmark = pytest.mark.xdist_group("workflow")  # one worker: the tests share a finished study
+
+
+class Project:
+    """A copy of the workflow in a folder of its own, with one study."""
+
+    def __init__(self, root, folder):
+        self.root, self.folder = root, folder
+        for name in ("Snakefile", "workflow", "profiles", "config"):
+            copy = shutil.copytree if (root / name).is_dir() else shutil.copy
+            copy(root / name, folder / name)
+        self.results = folder / "results/small"
+        self.configure(STUDY)
+
+    def configure(self, text):
+        (self.folder / "small.yaml").write_text(text)
+
+    def snakemake(self, *arguments, check=True, **environment):
+        """Text that Snakemake prints."""
+        command = [
+            sys.executable,
+            "-m",
+            "snakemake",
+            "--configfile",
+            "small.yaml",
+            "--cores",
+            "2",
+            *arguments,
+        ]
+        done = subprocess.run(
+            command, cwd=self.folder, capture_output=True, text=True, env={**os.environ, **environment}
+        )
+        assert not check or done.returncode == 0, done.stdout + done.stderr
+        return done.stdout + done.stderr
+
+    def jobs(self, *arguments, **environment):
+        """Number of jobs of each rule that a run of Snakemake started, or would start."""
+        text = self.snakemake(*arguments, **environment)
+        table = re.search(r"^job +count\n-+ +-+\n((?:\w+ +\d+\n)+)", text, re.MULTILINE)
+        if not table:
+            assert "Nothing to be done" in text, text
+            return {}
+        rows = (line.split() for line in table[1].splitlines())
+        return {rule: int(count) for rule, count in rows if rule not in ("all", "total")}
+
+    def runs(self):
+        return pd.read_csv(self.results / "tables/runs.csv")
+
+
+@pytest.fixture(scope="session")
+def finished(root, tmp_path_factory):
+    """A finished study; tests get copies of it."""
+    project = Project(root, tmp_path_factory.mktemp("finished"))
+    project.first = project.jobs()
+    return project
+
+
+@pytest.fixture
+def project(finished, tmp_path):
+    """A copy of the finished study, with times of files kept."""
+    folder = tmp_path / "copy"
+    shutil.copytree(finished.folder, folder)
+    copied = object.__new__(Project)
+    copied.root, copied.folder, copied.results = finished.root, folder, folder / "results/small"
+    return copied
+
+
+def test_a_study_ends_with_records_tables_and_report(finished):
+    assert finished.first == {"warm": 1, "batch": 1, "tables": 1, "report": 1}
+    assert finished.runs()["status"].isin(["ok", "not_at_rest"]).all()
+    assert len(finished.runs()) == 2
+    for name in ("records/0001.nc", "tables/series.csv", "tables/timing.csv", "report.html"):
+        assert (finished.results / name).stat().st_size > 0
+    assert (finished.results / "benchmarks/batch-0001.tsv").exists()
+    assert (finished.results / "logs/batch-0001.log").read_text().count("\n") == 3
+
+
+def test_the_report_needs_no_network(finished):
+    page = (finished.results / "report.html").read_text()
+    assert not re.search(r"""<(script|link|img)[^>]+(src|href)=["']https?:""", page)
+
+
+def test_a_second_run_does_nothing(project):
+    before = {path: path.stat().st_mtime_ns for path in project.results.rglob("*") if path.is_file()}
+    assert project.jobs() == {}
+    assert project.jobs("-n") == {}
+    assert before == {path: path.stat().st_mtime_ns for path in project.results.rglob("*") if path.is_file()}
+
+
+def test_a_wider_grid_computes_only_what_is_new(project):
+    record = project.results / "records/0001.nc"
+    before = record.stat().st_mtime_ns
+    project.configure(STUDY.replace("a_H: [1, 2]", "a_H: [0.5, 2, 1]"))
+    assert project.jobs() == {"batch": 1, "tables": 1, "report": 1}
+    assert record.stat().st_mtime_ns == before
+    assert project.runs()["a_H"].tolist() == [0.5, 2, 1]
+    assert project.jobs() == {}
+
+
+def test_another_order_or_fewer_points_renew_the_tables_alone(project):
+    project.configure(STUDY.replace("a_H: [1, 2]", "a_H: [2.0, 1]"))
+    assert project.jobs("-n") == {"tables": 1, "report": 1}
+    project.configure(STUDY.replace("a_H: [1, 2]", "a_H: [2]"))
+    assert project.jobs() == {"tables": 1, "report": 1}
+    assert project.runs()["a_H"].tolist() == [2]
+
+
+def test_changed_code_runs_everything_again(project):
+    source = shutil.copytree(project.root / "src", project.folder / "src")
+    assert project.jobs("-n", PYTHONPATH=str(source)) == {}
+    with open(source / "subslide/fields.py", "a") as file:
+        file.write("# a change\n")
+    again = project.jobs("-n", PYTHONPATH=str(source))
+    assert again == {"warm": 1, "batch": 1, "tables": 1, "report": 1}
+
+
+def test_a_changed_figure_solves_nothing(project):
+    source = shutil.copytree(project.root / "src", project.folder / "src")
+    with open(source / "subslide/figures/__init__.py", "a") as file:
+        file.write("# a change\n")
+    assert project.jobs("-n", PYTHONPATH=str(source)) == {}
+
+
+def test_a_damaged_record_is_solved_again_though_its_time_and_size_are_kept(project):
+    record = project.results / "records/0001.nc"
+    times = record.stat()
+    content = bytearray(record.read_bytes())
+    content[len(content) // 2] ^= 1
+    record.write_bytes(content)
+    os.utime(record, ns=(times.st_atime_ns, times.st_mtime_ns))
+    assert "0001.nc does not match its checksum" in project.snakemake("-n")
+    assert record.read_bytes() == content  # a dry run changes nothing
+    assert project.jobs()["batch"] == 1
+    assert record.read_bytes() != content
+    assert project.jobs() == {}
+
+
+def test_missing_records_are_solved_again(project):
+    shutil.rmtree(project.results / "records")
+    assert project.jobs("-n")["batch"] == 1
+
+
+def test_mistakes_are_told_before_anything_is_written(project):
+    project.configure(STUDY.replace("r: 0.4", "r: 1.5").replace("small", "other"))
+    text = project.snakemake(check=False)
+    assert "r: 1.5 is not allowed; allowed: a number from 0 to below 1" in text
+    assert "Traceback" not in text
+    assert not (project.folder / "results/other").exists()
+
+
+def test_studies_are_not_merged(project):
+    """Keys of config/paper.yaml, which runs when no file is given, must not reach another study."""
+    assert set(project.runs()["delta"]) == {32}
+    assert project.runs()["numerics"].tolist() == ["default", "default"]
+    assert project.runs()["cells"].tolist() == [20, 20]
