@@ -9,7 +9,9 @@ rule tables:
         points=RESULTS / "points.json",
         records=RECORDS,
     output:
-        report(TABLES[0], caption="../report/runs.rst", category="5 Tables", labels={"figure": "Table of runs"}),
+        report(
+            TABLES[0], caption="../report/runs.rst", category="5 Tables", labels={"figure": "Table of runs"}
+        ),
         TABLES[1:],
     log:
         RESULTS / "logs/tables.log",
