@@ -11,7 +11,7 @@ from functools import cached_property
 class Point:
     """One run: all that its answer depends on. Lengths in m, times in s, angles in degrees.
 
-    t_end None means until rest; snapshot_times None means the paper's times, scaled by sqrt(radius).
+    scene_options are sorted pairs of name and value. t_end None means until rest; snapshot_times None means the paper's times, scaled by sqrt(radius).
     """
 
     a_H: float = 1.0
@@ -21,9 +21,16 @@ class Point:
     radius: float = 0.0705
     g: float = 9.81
     scene: str = "cylinder"
+    scene_options: tuple[tuple[str, float | str], ...] = ()
+    quantities: str = "all"
+    friction: str = "coulomb"
+    xi: float = 500.0
+    delta_2: float = 42.0
+    pouliquen_length: float = 0.005
     model: str = "auto"
     scheme: str = "ifcph"
-    order: int = 1
+    wave_speeds: str = "exact"
+    order: int = 2
     cells: int = 200
     dtype: str = "float64"
     cfl: float = 0.9
@@ -44,7 +51,7 @@ class Point:
 
 
 RUN_KEYS = tuple(field.name for field in fields(Point))
-FLOATS = ("a_H", "a_2", "r", "delta", "radius", "g", "cfl", "t_end")
+FLOATS = ("a_H", "a_2", "r", "delta", "radius", "g", "xi", "delta_2", "pouliquen_length", "cfl", "t_end")
 
 
 def canonical(point: Point) -> str:
@@ -60,6 +67,7 @@ def to_dict(point: Point) -> dict:
             values[key] = float(values[key]) + 0.0  # -0.0 becomes 0.0
     if values["t_end"] is None:
         values["t_end"] = "rest"
+    values["scene_options"] = dict(point.scene_options)
     times = values["snapshot_times"]
     values["snapshot_times"] = "paper" if times is None else [float(t) + 0.0 for t in times]
     return values
@@ -73,6 +81,7 @@ def from_dict(values: dict) -> Point:
             values[key] = float(values[key])
     if values.get("t_end") == "rest":
         values["t_end"] = None
+    values["scene_options"] = tuple(sorted(values.get("scene_options", {}).items()))
     times = values.get("snapshot_times", "paper")
     values["snapshot_times"] = None if times == "paper" else tuple(sorted({float(t) for t in times}))
     for key in ("order", "cells"):
