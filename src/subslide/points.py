@@ -11,7 +11,8 @@ from functools import cached_property
 class Point:
     """One run: all that its answer depends on. Lengths in m, times in s, angles in degrees.
 
-    scene_options are sorted pairs of name and value. t_end None means until rest; snapshot_times None means the paper's times, scaled by sqrt(radius).
+    scene_options are sorted pairs of name and value. t_end None means until rest; snapshot_times None means the
+    paper's times, scaled by sqrt(radius).
     """
 
     a_H: float = 1.0

@@ -7,21 +7,44 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .jit import inlined
+
 GHOSTS = 2
 """The slope in the first ghost cell needs the second."""
 
 
 class Scene(NamedTuple):
-    """Scaled numbers of a run, all of the working precision (flags and counts are integers)."""
+    """Scaled numbers of a run, all of the working precision (flags and counts are integers).
+
+    The kernels compiled for it are lean: they leave out what the fields from `speeds` on choose.
+    """
 
     layers: int
     scheme: int
     order: int
     r: float
-    friction: float  # mu R / H2
+    friction: float  # tan(delta) R / H2
     dx: float
     cfl: float
     dry_depth: float
+    speeds: int = 0  # see `waves.SPEEDS`
+    law: int = 0  # see `friction.LAWS`
+    turbulence: float = 0.0  # g / (xi a_2)
+    friction_rise: float = 0.0  # (tan(delta_2) - tan(delta)) R / H2
+    depths: float = 0.0  # H2 / pouliquen_length
+
+
+GeneralScene = NamedTuple("GeneralScene", [*Scene.__annotations__.items(), ("general", int)])
+"""A Scene for which kernels with every choice are compiled; see `is_general`."""
+
+
+@inlined
+def is_general(s):
+    """Return whether the kernels are compiled with every choice, known by the type so that lean ones drop the rest."""
+    return len(s) > LEAN_FIELDS
+
+
+LEAN_FIELDS = len(Scene._fields)
 
 
 class Cells(NamedTuple):

@@ -4,13 +4,15 @@ Edge k lies between the padded cells k + 1 and k + 2. `area` (n + 1) is the size
 one over the size of a cell: radius and 1 / (radius dx) for round scenes, 1 and 1 / dx on a line.
 """
 
-from .arrays import GHOSTS
+from .arrays import GHOSTS, is_general
 from .edge import edge_fluxes, grain_edge_fluxes
-from .friction import coulomb, drive, holds, velocity
+from .friction import COULOMB, further
+from .friction.coulomb import coulomb, drive, holds
 from .jit import inlined
 from .positivity import limit, share
 from .reconstruct import depth_slopes, mc, rates
-from .waves import grain_speeds, outer_speeds
+from .velocity import velocity
+from .waves import chosen_outer_speeds, grain_speeds
 
 
 @inlined
@@ -44,7 +46,7 @@ def cell_speeds(s, c):
         for i in range(c.h1.shape[0]):
             c.eta[i] = c.h1[i] + c.h2[i]
             c.speed2[i] = abs(c.u2[i])
-            slow, fast = outer_speeds(c.h1[i], c.u1[i], c.h2[i], c.u2[i], s.r)
+            slow, fast = chosen_outer_speeds(s, c.h1[i], c.u1[i], c.h2[i], c.u2[i])
             c.slow_x[i] = slow
             c.fast_x[i] = fast
             c.pace[i] = max(fast, -slow)
@@ -142,9 +144,7 @@ def edges(s, c, left, right, fx):
         i = k + GHOSTS - 1
         j = i + 1
         fx.f1[k], fx.m1[k], fx.p1[k], fx.f2[k], fx.m2[k], fx.p2[k] = edge_fluxes(
-            s.scheme,
-            s.r,
-            s.dry_depth,
+            s,
             fx.stuck[k] != zero,
             min(c.slow_x[i], c.slow_x[j]),
             max(c.fast_x[i], c.fast_x[j]),
@@ -200,3 +200,6 @@ def update(s, c, fx, mk, area, inverse_volume, dt):
         c.h2[i] = h2
         c.u1[i] = velocity(q1, h1, s.dry_depth)
         c.u2[i] = u2 * coulomb(reach, abs(u2), mk.held[i])
+    if is_general(s) and s.law != COULOMB:
+        for i in range(GHOSTS, GHOSTS + inverse_volume.shape[0]):
+            c.u2[i] *= further(s, dt, c.h2[i], abs(c.u2[i]))

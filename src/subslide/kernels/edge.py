@@ -5,9 +5,11 @@ State normal to the edge, scaled (g = 1): depths h1, h2 and velocities u1, u2; l
 
 import math
 
+from .arrays import is_general
 from .jit import inlined
-from .viscosity import RUSANOV, coefficients, hll, rusanov
-from .waves import inner_speeds, outer_speeds
+from .variants import roe_viscosity, spreading_grains
+from .viscosity import IFCPH_FRONT, ROE, RUSANOV, coefficients, hll, rusanov
+from .waves import chosen_speeds
 
 
 @inlined
@@ -30,9 +32,7 @@ def intermediate_speed(s_l, s_r, centre, half_width_squared):
 
 
 @inlined
-def edge_fluxes(
-    scheme, r, dry_depth, stuck, slowest, fastest, h1_i, u1_i, h2_i, u2_i, h1_j, u1_j, h2_j, u2_j, d_eta
-):
+def edge_fluxes(s, stuck, slowest, fastest, h1_i, u1_i, h2_i, u2_i, h1_j, u1_j, h2_j, u2_j, d_eta):
     """Return (f1, m1, p1, f2, m2, p2): for each layer the flux of mass, of momentum, and the pressure product.
 
     The momentum flux holds advection and viscosity; the pressure products g h1 d(h1+h2) and g h2 d(r h1 + h2),
@@ -45,6 +45,7 @@ def edge_fluxes(
     passes the edge.
     """
     real = type(h1_i)
+    r = s.r
     half = real(0.5)
     zero = real(0)
     h1 = half * (h1_i + h1_j)
@@ -60,13 +61,12 @@ def edge_fluxes(
     d_q1 = q1_j - q1_i
     d_q2 = q2_j - q2_i
 
-    slow, fast = outer_speeds(h1, u1, h2, u2, r)
-    centre, half_width_squared = inner_speeds(h1, u1, h2, u2, r, slow, fast)
+    slow, fast, centre, half_width_squared = chosen_speeds(s, h1, u1, h2, u2)
     s_l = min(slow, slowest)
     s_r = max(fast, fastest)
     s_int = intermediate_speed(s_l, s_r, centre, half_width_squared)
-    dry = min(min(h1_i, h1_j), min(h2_i, h2_j)) <= dry_depth
-    a0, a1, a2 = coefficients(scheme, s_l, s_int, s_r, dry)
+    dry = min(min(h1_i, h1_j), min(h2_i, h2_j)) <= s.dry_depth
+    a0, a1, a2 = coefficients(s.scheme, s_l, s_int, s_r, dry)
 
     e1 = d_eta if stuck else d_h1
     e3 = zero if stuck else d_h2
@@ -77,10 +77,30 @@ def edge_fluxes(
     c2 = k1 * d_q1 + (u1 + u1) * b2 + h1 * d_q2
     c4 = r * h2 * d_q1 + k2 * d_q2 + (u2 + u2) * b4
 
-    f1 = half * (q1_i + q1_j - (a0 * e1 + a1 * d_q1 + a2 * b2))
-    m1 = half * (q1_i * u1_i + q1_j * u1_j - (a0 * d_q1 + a1 * b2 + a2 * c2))
-    f2 = half * (q2_i + q2_j - (a0 * e3 + a1 * d_q2 + a2 * b4))
-    m2 = half * (q2_i * u2_i + q2_j * u2_j - (a0 * d_q2 + a1 * b4 + a2 * c4))
+    v1 = a0 * e1 + a1 * d_q1 + a2 * b2
+    v2 = a0 * d_q1 + a1 * b2 + a2 * c2
+    v3 = a0 * e3 + a1 * d_q2 + a2 * b4
+    v4 = a0 * d_q2 + a1 * b4 + a2 * c4
+    if is_general(s):
+        if s.scheme == ROE and not dry:
+            a = (u1, k1, h1, u2, k2, r * h2)
+            v1, v2, v3, v4 = roe_viscosity(
+                a,
+                slow,
+                fast,
+                centre,
+                half_width_squared,
+                slowest,
+                fastest,
+                (e1, d_q1, e3, d_q2, b2, b4, c2, c4),
+            )
+        if s.scheme == IFCPH_FRONT and min(h2_i, h2_j) <= s.dry_depth:
+            v3, v4 = spreading_grains(r, s.dry_depth, h2_i, u2_i, h2_j, u2_j, u2, e3, d_q2, b4)
+
+    f1 = half * (q1_i + q1_j - v1)
+    m1 = half * (q1_i * u1_i + q1_j * u1_j - v2)
+    f2 = half * (q2_i + q2_j - v3)
+    m2 = half * (q2_i * u2_i + q2_j * u2_j - v4)
     p1 = h1 * d_eta
     p2 = h2 * (r * d_h1 + d_h2)
     return f1, m1, p1, (zero if stuck else f2), m2, p2

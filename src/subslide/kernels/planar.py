@@ -1,16 +1,18 @@
-"""One step in the plane, as work on rows of ny x nx square cells (y first); unsplit.
+"""One step in the plane, as work on rows of ny x nx square cells (y first).
 
 Edge (j, k) of `fx` lies between the padded cells k + 1 and k + 2 of the padded row j + 2; `fy` likewise along y.
 Rows are worked on in blocks so that the states at faces stay in a core's cache.
 """
 
-from .arrays import GHOSTS, Side
+from .arrays import GHOSTS, Side, is_general
 from .edge import edge_fluxes
-from .friction import coulomb, drive, holds, norm, velocity
+from .friction import COULOMB, further
+from .friction.coulomb import coulomb, drive, holds
 from .jit import inlined
 from .positivity import donor, limit, share
 from .reconstruct import depth_slopes, mc, rates
-from .waves import outer_speeds
+from .velocity import norm, velocity
+from .waves import chosen_outer_speeds
 
 
 @inlined
@@ -47,8 +49,8 @@ def cell_speeds(s, c, j):
         h2 = c.h2[j, i]
         c.eta[j, i] = h1 + h2
         c.speed2[j, i] = norm(c.u2[j, i], c.v2[j, i])
-        slow_x, fast_x = outer_speeds(h1, c.u1[j, i], h2, c.u2[j, i], s.r)
-        slow_y, fast_y = outer_speeds(h1, c.v1[j, i], h2, c.v2[j, i], s.r)
+        slow_x, fast_x = chosen_outer_speeds(s, h1, c.u1[j, i], h2, c.u2[j, i])
+        slow_y, fast_y = chosen_outer_speeds(s, h1, c.v1[j, i], h2, c.v2[j, i])
         c.slow_x[j, i] = slow_x
         c.fast_x[j, i] = fast_x
         c.slow_y[j, i] = slow_y
@@ -184,9 +186,7 @@ def edges_x(s, c, j, left, right, b, fx):
         i = k + GHOSTS - 1
         n = i + 1
         f1, m1, p1, f2, m2, p2 = edge_fluxes(
-            s.scheme,
-            s.r,
-            s.dry_depth,
+            s,
             fx.stuck[j, k] != zero,
             min(c.slow_x[p, i], c.slow_x[p, n]),
             max(c.fast_x[p, i], c.fast_x[p, n]),
@@ -215,9 +215,7 @@ def edges_y(s, c, j, lower, upper, b, u, fy):
     for k in range(fy.f1.shape[1]):
         i = k + GHOSTS
         f1, m1, p1, f2, m2, p2 = edge_fluxes(
-            s.scheme,
-            s.r,
-            s.dry_depth,
+            s,
             fy.stuck[j, k] != zero,
             min(c.slow_y[p, i], c.slow_y[n, i]),
             max(c.fast_y[p, i], c.fast_y[n, i]),
@@ -296,3 +294,8 @@ def update(s, c, fx, fy, mk, j, dt):
         c.v2[p, i] = factor * v2
         c.h1[p, i] = new1
         c.h2[p, i] = new2
+    if is_general(s) and s.law != COULOMB:
+        for i in range(GHOSTS, GHOSTS + fy.f1.shape[1]):
+            factor = further(s, dt, c.h2[p, i], norm(c.u2[p, i], c.v2[p, i]))
+            c.u2[p, i] *= factor
+            c.v2[p, i] *= factor

@@ -6,7 +6,11 @@ Variables are scaled (g = 1), so the squared speed of a layer alone is its depth
 
 import math
 
+from .arrays import is_general
 from .jit import inlined
+
+SPEEDS = {"exact": 0, "approximate": 1}
+EXACT, APPROXIMATE = SPEEDS.values()
 
 NEWTON_STEPS = 3
 """Held by tests/numerics/test_waves.py against numpy's eigenvalues."""
@@ -103,3 +107,39 @@ def discriminant(h1, h2, shear_squared, r):
         - real(27) * q2 * q2
         + real(256) * s * s * s
     )
+
+
+@inlined
+def approximate_speeds(h1, u1, h2, u2, r):
+    """Return the outer pair, and the centre and half-width squared of the inner pair, for r near 1 and little shear.
+
+    Schijf and Schonfeld (1953). At rest with equal layers the outer pair is 18 % too fast at r = 0.2, the inner pair
+    15 % too slow; kept to be compared.
+    """
+    real = type(h1)
+    total = h1 + h2
+    scale = real(1) / (total if total > real(0) else real(1))
+    mean = (h1 * u1 + h2 * u2) * scale
+    c = math.sqrt(total)
+    shear = u1 - u2
+    half_width_squared = h1 * h2 * scale * ((real(1) - r) - shear * shear * scale)
+    return mean - c, mean + c, (h1 * u2 + h2 * u1) * scale, half_width_squared
+
+
+@inlined
+def chosen_outer_speeds(s, h1, u1, h2, u2):
+    """Return the slowest and the fastest wave speed, exact unless the scene chose approximate ones."""
+    if is_general(s) and s.speeds == APPROXIMATE:
+        slow, fast, _, _ = approximate_speeds(h1, u1, h2, u2, s.r)
+        return slow, fast
+    return outer_speeds(h1, u1, h2, u2, s.r)
+
+
+@inlined
+def chosen_speeds(s, h1, u1, h2, u2):
+    """Return the outer pair, and the centre and half-width squared of the inner pair, exact unless chosen otherwise."""
+    if is_general(s) and s.speeds == APPROXIMATE:
+        return approximate_speeds(h1, u1, h2, u2, s.r)
+    slow, fast = outer_speeds(h1, u1, h2, u2, s.r)
+    centre, half_width_squared = inner_speeds(h1, u1, h2, u2, s.r, slow, fast)
+    return slow, fast, centre, half_width_squared

@@ -5,8 +5,10 @@ import math
 import numpy as np
 
 from .. import scenes
-from ..kernels.arrays import Scene
+from ..kernels.arrays import GeneralScene, Scene
+from ..kernels.friction import LAWS
 from ..kernels.viscosity import SCHEMES
+from ..kernels.waves import SPEEDS
 from .axial import Axial
 from .grid import make_grid
 from .plane import Plane
@@ -23,6 +25,35 @@ def resolve_model(point):
     )
 
 
+def needs_general(point):
+    """Return whether a point needs the general kernels: whatever the lean ones leave out for speed."""
+    return (
+        point.scheme in ("roe", "ifcph-front") or point.wave_speeds != "exact" or point.friction != "coulomb"
+    )
+
+
+def scaled(point, layers, dx, dry_depth):
+    """Return the scaled numbers of a point (`kernels.arrays.Scene`) in its working precision."""
+    real = np.dtype(point.dtype).type
+    mu = math.tan(math.radians(point.delta))
+    scene = Scene(
+        layers=layers,
+        scheme=SCHEMES[point.scheme],
+        order=point.order,
+        r=real(point.r),
+        friction=real(mu / point.a_2),
+        dx=real(dx),
+        cfl=real(point.cfl),
+        dry_depth=real(dry_depth),
+        speeds=SPEEDS[point.wave_speeds],
+        law=LAWS[point.friction],
+        turbulence=real(point.g / (point.xi * point.a_2)),
+        friction_rise=real((math.tan(math.radians(point.delta_2)) - mu) / point.a_2),
+        depths=real(point.a_2 * point.radius / point.pouliquen_length),
+    )
+    return GeneralScene(*scene, general=1) if needs_general(point) else scene
+
+
 def build(point, model, box, watched, dry_depth):
     """Return the model in its initial state.
 
@@ -33,16 +64,7 @@ def build(point, model, box, watched, dry_depth):
     grid = make_grid(model, dx, box)
     state = scenes.load(point.scene).initial(grid, point)
     alone = model == "one-layer"
-    scene = Scene(
-        layers=1 if alone else 2,
-        scheme=SCHEMES[point.scheme],
-        order=point.order,
-        r=real(0 if alone else point.r),
-        friction=real(math.tan(math.radians(point.delta)) / point.a_2),
-        dx=real(dx),
-        cfl=real(point.cfl),
-        dry_depth=real(dry_depth),
-    )
+    scene = scaled(point, 1 if alone else 2, dx, dry_depth)
     level = real(1.0 + point.a_H)
     shape = (len(grid.centres),) * (1 if model in AXIAL else 2)
     flat = np.ptp(state.h1 + state.h2) == 0

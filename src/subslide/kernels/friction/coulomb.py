@@ -1,8 +1,6 @@
 """Coulomb friction and the states at rest that it holds (Eq. 3 and Theorem 3.1 of the paper)."""
 
-import math
-
-from .jit import inlined
+from ..jit import inlined
 
 
 @inlined
@@ -35,18 +33,3 @@ def coulomb(reach, speed, held):
     real = type(speed)
     moving = speed > reach and held == real(0)
     return real(1) - reach / (speed if moving else real(1)) if moving else real(0)
-
-
-@inlined
-def velocity(q, h, thin):
-    """Return q/h, smoothly cut off below the depth `thin` (a desingularised quotient)."""
-    real = type(q)
-    square = h * h
-    total = square + max(square, thin * thin)
-    return q * (h + h) / (total if total > real(0) else real(1))
-
-
-@inlined
-def norm(x, y):
-    """Return the length of a vector in the plane."""
-    return math.sqrt(x * x + y * y)
