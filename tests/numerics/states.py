@@ -5,8 +5,9 @@ import math
 import numpy as np
 
 from subslide.kernels import clock as k
-from subslide.kernels.arrays import Scene
+from subslide.kernels.arrays import GeneralScene, Scene
 from subslide.kernels.viscosity import SCHEMES
+from subslide.kernels.waves import SPEEDS
 from subslide.models.axial import Axial
 from subslide.models.grid import Grid
 from subslide.models.plane import Plane
@@ -14,10 +15,24 @@ from subslide.models.plane import Plane
 THRESHOLDS = (0.01, 0.03, 0.05)
 
 
-def scene(dx, layers=2, scheme="ifcph", order=1, r=0.4, friction=1.0, cfl=0.9):
+def scene(
+    dx, layers=2, scheme="ifcph", order=1, r=0.4, friction=1.0, cfl=0.9, own_front=True, speeds="exact"
+):
     """Scaled numbers of a run in double precision."""
     real = np.float64
-    return Scene(layers, SCHEMES[scheme], order, real(r), real(friction), real(dx), real(cfl), real(1e-6))
+    found = Scene(
+        layers=layers,
+        scheme=SCHEMES[scheme],
+        order=order,
+        r=real(r),
+        friction=real(friction),
+        dx=real(dx),
+        cfl=real(cfl),
+        dry_depth=real(1e-6),
+        own_front=int(own_front),
+        speeds=SPEEDS[speeds],
+    )
+    return GeneralScene(*found, general=1) if scheme == "roe" or speeds != "exact" else found
 
 
 def axial(edges, h1, u1, h2, u2, *, level, radial=False, walls=(True, True), **options):

@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from states import scene
 from test_waves import matrix
 
 from subslide.kernels.edge import edge_fluxes, grain_edge_fluxes
 from subslide.kernels.viscosity import SCHEMES, coefficients
+from subslide.kernels.viscosity.roe import roe
 from subslide.kernels.waves import inner_speeds, outer_speeds
 
 depths = st.floats(1e-3, 10.0)
@@ -15,6 +17,7 @@ speeds = st.floats(-1.5, 1.5)
 ratios = st.floats(0.0, 0.95)
 states = st.tuples(depths, speeds, depths, speeds)
 NODES = {"rusanov": "max", "hll": "two", "ifcp": "three", "ifcph": "three"}
+PARABOLAS = tuple(NODES)
 
 
 def polynomial(scheme, s_l, s_int, s_r, x, dry=False):
@@ -27,10 +30,10 @@ def side(s_l, s_r):
 
 
 def test_every_scheme_is_tested():
-    assert set(NODES) == set(SCHEMES)
+    assert {*NODES, "roe"} == set(SCHEMES)
 
 
-@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize("scheme", PARABOLAS)
 @given(s_l=st.floats(-5, 5), width=st.floats(1e-3, 8), part=st.floats(0, 1))
 def test_polynomial_takes_the_absolute_value_at_its_nodes(scheme, s_l, width, part):
     s_r = s_l + width
@@ -46,7 +49,7 @@ def test_polynomial_takes_the_absolute_value_at_its_nodes(scheme, s_l, width, pa
         assert polynomial(scheme, s_l, s_int, s_r, node) >= abs(node) - 1e-9
 
 
-@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize("scheme", PARABOLAS)
 @settings(max_examples=200, deadline=None)
 @given(h1=depths, u1=speeds, h2=depths, shear=st.floats(-0.4, 0.4), r=ratios)
 def test_viscosity_is_at_least_upwind_on_all_four_waves(scheme, h1, u1, h2, shear, r):
@@ -65,12 +68,18 @@ def test_ifcph_is_hll_at_a_dry_edge_and_ifcp_elsewhere():
     assert coefficients(SCHEMES["ifcph"], *speeds, False) == coefficients(SCHEMES["ifcp"], *speeds, False)
 
 
-def fluxes(scheme, r, w_i, w_j, stuck=False):
+def fluxes(scheme, r, w_i, w_j, stuck=False, own_front=True):
     """(advective and viscous flux, pressure product), each on (h1, q1, h2, q2)."""
     bounds = np.array([outer_speeds(*w, r) for w in (w_i, w_j)])
     d_eta = (w_j[0] + w_j[2]) - (w_i[0] + w_i[2])
     f1, m1, p1, f2, m2, p2 = edge_fluxes(
-        SCHEMES[scheme], r, 1e-6, stuck, bounds[:, 0].min(), bounds[:, 1].max(), *w_i, *w_j, d_eta
+        scene(1.0, scheme=scheme, r=r, own_front=own_front),
+        stuck,
+        bounds[:, 0].min(),
+        bounds[:, 1].max(),
+        *w_i,
+        *w_j,
+        d_eta,
     )
     return np.array([f1, m1, f2, m2]), np.array([0, p1, 0, p2])
 
@@ -114,7 +123,7 @@ def test_fluctuations_add_up_to_the_roe_matrix_times_the_jump(scheme, w_i, w_j, 
     np.testing.assert_allclose(left + right, matrix(*roe_mean(w_i, w_j), r) @ jump, atol=1e-12 * scale)
 
 
-@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize("scheme", PARABOLAS)
 @settings(deadline=None)
 @given(w_i=states, w_j=states, r=ratios)
 def test_viscosity_is_the_polynomial_of_the_roe_matrix(scheme, w_i, w_j, r):
@@ -160,3 +169,54 @@ def test_grains_alone_are_consistent(h_i, u_i, h_j, u_j):
     f, m, p = grain_edge_fluxes(SCHEMES["hll"], 1e-6, False, h_i, u_i, h_j, u_j)
     back = grain_edge_fluxes(SCHEMES["hll"], 1e-6, False, h_j, -u_j, h_i, -u_i)
     assert back == (-f, m, -p)
+
+
+@given(nodes=st.lists(st.floats(-3, 3), min_size=4, max_size=4), more=st.floats(0, 1))
+def test_roe_polynomial_takes_the_absolute_value_at_four_speeds(nodes, more):
+    x = np.sort(nodes)
+    a = roe(*x, abs(x[0]) + more * (x[1] - x[0] > 0.1), abs(x[3]))
+    assert np.all(np.isfinite(a))
+    gap = np.diff(x).min()
+    for node, value in zip(x[1:], np.abs(x[1:]), strict=True):
+        assert np.isclose(np.polyval(a[::-1], node), value, atol=1e-9 * (1 + 1 / max(gap, 1e-3) ** 3))
+
+
+@given(speeds=st.tuples(*[st.sampled_from([-1.0, -0.5, 0.0, 0.5, 1.0])] * 4))
+def test_roe_polynomial_survives_equal_speeds(speeds):
+    x = sorted(speeds)
+    a = roe(*x, abs(x[0]), abs(x[3]))
+    np.testing.assert_allclose([np.polyval(a[::-1], node) for node in x], np.abs(x), atol=1e-12)
+
+
+@settings(max_examples=200, deadline=None)
+@given(w_i=states, w_j=states, r=st.floats(0.05, 0.95))
+def test_roe_viscosity_is_the_absolute_value_of_the_roe_matrix(w_i, w_j, r):
+    mean = roe_mean(w_i, w_j)
+    values, vectors = np.linalg.eig(matrix(*mean, r))
+    gap = np.diff(np.sort(values.real)).min()
+    assume(np.abs(values.imag).max() < 1e-12 and gap > 1e-2)
+    bounds = np.array([outer_speeds(*w, r) for w in (w_i, w_j)])
+    opens = bounds[:, 0].min() < values.real.min() - abs(values.real.min())
+    assume(not opens and bounds[:, 1].max() - values.real.max() <= abs(values.real.max()))
+    viscous = (vectors * np.abs(values)) @ np.linalg.solve(vectors, conserved(w_j) - conserved(w_i))
+    flux, _ = fluxes("roe", r, w_i, w_j)
+    expected = (advection(w_i) + advection(w_j) - viscous.real) / 2
+    np.testing.assert_allclose(flux, expected, atol=1e-7 * (1 + np.abs(expected).max()))
+
+
+def test_own_front_changes_the_grains_at_a_dry_edge_alone():
+    wet, dry = (1.0, 0.1, 0.5, 0.2), (1.5, 0.1, 0.0, 0.0)
+    own, _ = fluxes("ifcph", 0.6, wet, dry)
+    system, _ = fluxes("ifcph", 0.6, wet, dry, own_front=False)
+    assert own[0] == system[0] and own[1] == system[1] and own[2] != system[2]
+    inside = (1.0, 0.1, 0.5, 0.2), (1.1, 0.0, 0.4, 0.1)
+    np.testing.assert_array_equal(
+        fluxes("ifcph", 0.6, *inside)[0], fluxes("ifcph", 0.6, *inside, own_front=False)[0]
+    )
+
+
+def test_own_front_of_weightless_water_is_the_front_of_grains_alone():
+    grains, water = (0.4, 0.7), (0.3, 0.0)
+    flux, _ = fluxes("ifcph", 0.0, (*water, *grains), (*water, 0.0, 0.0))
+    f, m, _ = grain_edge_fluxes(SCHEMES["hll"], 1e-6, False, *grains, 0.0, 0.0)
+    np.testing.assert_allclose(flux[2:], [f, m], rtol=1e-14)

@@ -1,10 +1,11 @@
 """Wave speeds against numpy's eigenvalues, and the verdict on hyperbolicity."""
 
 import numpy as np
+import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from subslide.kernels.waves import discriminant, inner_speeds, outer_speeds
+from subslide.kernels.waves import approximate_speeds, discriminant, inner_speeds, outer_speeds
 
 depths = st.one_of(st.just(0.0), st.floats(1e-5, 20.0))
 speeds = st.floats(-3.0, 3.0)
@@ -93,3 +94,13 @@ def test_discriminant_sees_the_limit_of_shear_as_densities_meet():
     limit = (1 - r) * (h1 + h2)
     assert discriminant(h1, h2, 0.9 * limit, r) > 0
     assert discriminant(h1, h2, 1.1 * limit, r) < 0
+
+
+def test_approximate_speeds_err_at_rest_as_published():
+    for r, outer, inner in ((0.0, 1.41, 0.71), (0.2, 1.18, 0.85), (0.4, 1.11, 0.90)):
+        slow, fast = outer_speeds(1.0, 0.0, 1.0, 0.0, r)
+        _, half_width_squared = inner_speeds(1.0, 0.0, 1.0, 0.0, r, slow, fast)
+        _, near, _, near_squared = approximate_speeds(1.0, 0.0, 1.0, 0.0, r)
+        exact = np.sqrt(half_width_squared) if r > 0 else 1.0
+        assert near / fast == pytest.approx(outer, abs=0.006)
+        assert np.sqrt(near_squared) / exact == pytest.approx(inner, abs=0.006)

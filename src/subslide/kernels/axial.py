@@ -10,7 +10,7 @@ from .friction import COULOMB, further
 from .friction.coulomb import coulomb, drive, holds
 from .jit import inlined
 from .positivity import limit, share
-from .reconstruct import depth_slopes, mc, rates
+from .reconstruct import depth_slopes, grain_slopes, mc, rates
 from .velocity import velocity
 from .waves import chosen_outer_speeds, grain_speeds
 
@@ -80,12 +80,14 @@ def faces(s, c, left, right, mk, ratio, source, dt):
         h2 = c.h2[i]
         u2 = c.u2[i]
         s_u1 = mc(u1 - c.u1[i - 1], c.u1[i + 1] - u1)
-        s_u2 = mc(u2 - c.u2[i - 1], c.u2[i + 1] - u2)
+        s_h2, s_u2 = grain_slopes(
+            s.r, s.dry_depth, c.h2[i - 1], c.u2[i - 1], h2, u2, c.h2[i + 1], c.u2[i + 1]
+        )
         s_eta, s_h1, s_h2 = depth_slopes(
             h1,
             h2,
             mc(c.eta[i] - c.eta[i - 1], c.eta[i + 1] - c.eta[i]),
-            mc(h2 - c.h2[i - 1], c.h2[i + 1] - h2),
+            s_h2,
         )
         d_h1, d_u1, d_h2, d_u2 = rates(s.r, h1, u1, h2, u2, s_eta, s_h1, s_h2, s_u1, s_u2)
         change1 = max(-h1, ratio * d_h1 + dt * source[i] * h1 * u1)

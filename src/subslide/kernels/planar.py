@@ -10,7 +10,7 @@ from .friction import COULOMB, further
 from .friction.coulomb import coulomb, drive, holds
 from .jit import inlined
 from .positivity import donor, limit, share
-from .reconstruct import depth_slopes, mc, rates
+from .reconstruct import depth_slopes, grain_slopes, mc, rates
 from .velocity import norm, velocity
 from .waves import chosen_outer_speeds
 
@@ -105,13 +105,19 @@ def faces(s, c, mk, j, left, right, lower, upper, b, u, dt):
     for i in range(1, c.h1.shape[1] - 1):
         h1, u1, v1 = c.h1[j, i], c.u1[j, i], c.v1[j, i]
         h2, u2, v2 = c.h2[j, i], c.u2[j, i], c.v2[j, i]
+        x_h2, x_u2 = grain_slopes(
+            s.r, s.dry_depth, c.h2[j, i - 1], c.u2[j, i - 1], h2, u2, c.h2[j, i + 1], c.u2[j, i + 1]
+        )
+        y_h2, y_v2 = grain_slopes(
+            s.r, s.dry_depth, c.h2[j - 1, i], c.v2[j - 1, i], h2, v2, c.h2[j + 1, i], c.v2[j + 1, i]
+        )
         x = Side(
             mc(c.eta[j, i] - c.eta[j, i - 1], c.eta[j, i + 1] - c.eta[j, i]),
             zero,
             mc(u1 - c.u1[j, i - 1], c.u1[j, i + 1] - u1),
             mc(v1 - c.v1[j, i - 1], c.v1[j, i + 1] - v1),
-            mc(h2 - c.h2[j, i - 1], c.h2[j, i + 1] - h2),
-            mc(u2 - c.u2[j, i - 1], c.u2[j, i + 1] - u2),
+            x_h2,
+            x_u2,
             mc(v2 - c.v2[j, i - 1], c.v2[j, i + 1] - v2),
         )
         y = Side(
@@ -119,9 +125,9 @@ def faces(s, c, mk, j, left, right, lower, upper, b, u, dt):
             zero,
             mc(u1 - c.u1[j - 1, i], c.u1[j + 1, i] - u1),
             mc(v1 - c.v1[j - 1, i], c.v1[j + 1, i] - v1),
-            mc(h2 - c.h2[j - 1, i], c.h2[j + 1, i] - h2),
+            y_h2,
             mc(u2 - c.u2[j - 1, i], c.u2[j + 1, i] - u2),
-            mc(v2 - c.v2[j - 1, i], c.v2[j + 1, i] - v2),
+            y_v2,
         )
         xe, x1, x2 = depth_slopes(h1, h2, x.eta, x.h2)
         ye, y1, y2 = depth_slopes(h1, h2, y.eta, y.h2)

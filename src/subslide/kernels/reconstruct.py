@@ -1,6 +1,7 @@
 """Second order: MUSCL-Hancock with the MC limiter (van Leer 1977, 1979), one Riemann solve a step.
 
-Reconstructed are eta = h1 + h2, h2 and the velocities; never h1, so that a flat surface over a slope stays flat.
+Reconstructed are eta = h1 + h2, the water's velocity and the Riemann invariants of the grains; never h1, so that a
+flat surface over a slope stays flat.
 """
 
 import math
@@ -15,6 +16,34 @@ def mc(left, right):
     centre = real(0.5) * (left + right)
     bound = real(2) * min(abs(left), abs(right))
     return math.copysign(min(abs(centre), bound), centre) if left * right > real(0) else real(0)
+
+
+@inlined
+def grain_slopes(r, dry_depth, h_l, u_l, h, u, h_r, u_r):
+    """Return the slopes of the grains' depth and normal velocity, limited in u -+ 2 sqrt(g (1-r) h2).
+
+    These invariants of grains under still water are linear in the fan behind a front, where the depth is not: the
+    front lags a third less than with slopes limited in depth and velocity. A dry neighbour counts as the tip of such
+    a fan.
+    """
+    real = type(r)
+    half = real(0.5)
+    reduced = real(1) - r
+    c_l = two_root(reduced * h_l)
+    c = two_root(reduced * h)
+    c_r = two_root(reduced * h_r)
+    u_l = u - c if h_l <= dry_depth else u_l
+    u_r = u + c if h_r <= dry_depth else u_r
+    rising = mc((u + c) - (u_l + c_l), (u_r + c_r) - (u + c))
+    falling = mc((u - c) - (u_l - c_l), (u_r - c_r) - (u - c))
+    return half * half * c * (rising - falling) / reduced, half * (rising + falling)
+
+
+@inlined
+def two_root(square):
+    """Return twice the square root."""
+    root = math.sqrt(square)
+    return root + root
 
 
 @inlined

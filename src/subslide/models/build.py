@@ -27,9 +27,7 @@ def resolve_model(point):
 
 def needs_general(point):
     """Return whether a point needs the general kernels: whatever the lean ones leave out for speed."""
-    return (
-        point.scheme in ("roe", "ifcph-front") or point.wave_speeds != "exact" or point.friction != "coulomb"
-    )
+    return point.scheme == "roe" or point.wave_speeds != "exact" or point.friction != "coulomb"
 
 
 def scaled(point, layers, dx, dry_depth):
@@ -45,6 +43,7 @@ def scaled(point, layers, dx, dry_depth):
         dx=real(dx),
         cfl=real(point.cfl),
         dry_depth=real(dry_depth),
+        own_front=int(point.front_speeds == "grains" and point.scheme in ("ifcph", "roe")),
         speeds=SPEEDS[point.wave_speeds],
         law=LAWS[point.friction],
         turbulence=real(point.g / (point.xi * point.a_2)),

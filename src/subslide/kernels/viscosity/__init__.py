@@ -1,8 +1,8 @@
 """Riemann solvers as polynomials of the Roe matrix (PVM methods, Castro and Fernandez-Nieto 2012).
 
 Q = alpha0 Id + alpha1 A + alpha2 A^2 (Eq. 9), so a solver is a function from wave speeds to three numbers. One file
-each; to add one, name it in SCHEMES and give it a branch in `coefficients`. Roe's polynomial has a fourth, and
-`ifcph-front` differs from IFCPH at the edge of the grains (see `variants`).
+each; to add one, name it in SCHEMES and give it a branch in `coefficients`. Roe's polynomial has a fourth
+(see `roe`).
 """
 
 from ..jit import inlined
@@ -10,8 +10,8 @@ from .hll import hll
 from .ifcp import ifcp
 from .rusanov import rusanov
 
-SCHEMES = {"rusanov": 0, "hll": 1, "ifcp": 2, "ifcph": 3, "roe": 4, "ifcph-front": 5}
-RUSANOV, HLL, IFCP, IFCPH, ROE, IFCPH_FRONT = SCHEMES.values()
+SCHEMES = {"rusanov": 0, "hll": 1, "ifcp": 2, "ifcph": 3, "roe": 4}
+RUSANOV, HLL, IFCP, IFCPH, ROE = SCHEMES.values()
 
 
 @inlined

@@ -1,6 +1,33 @@
 """Roe's solver: Q = |A|, the polynomial of degree three through |S| at the four wave speeds of A."""
 
+import math
+
 from ..jit import inlined
+
+
+@inlined
+def roe_viscosity(a, slow, fast, centre, half_width_squared, slowest, fastest, jumps):
+    """Return |A| d. `a` is (u1, h1 - u1^2, h1, u2, h2 - u2^2, r h2); `jumps` are d, A d and A^2 d without repeats.
+
+    The outer speeds of a fan that opens are raised by its half-width (Harten and Hyman 1983), or a transonic one would
+    stay a jump.
+    """
+    u1, k1, h1, u2, k2, rh2 = a
+    e1, d_q1, e3, d_q2, b2, b4, c2, c4 = jumps
+    w = math.sqrt(max(half_width_squared, type(u1)(0)))
+    at_slow = max(abs(slow), slow - slowest)
+    at_fast = max(abs(fast), fastest - fast)
+    low = max(slow, min(fast, centre - w))
+    high = max(slow, min(fast, centre + w))
+    a0, a1, a2, a3 = roe(slow, low, high, fast, at_slow, at_fast)
+    g2 = k1 * b2 + (u1 + u1) * c2 + h1 * b4
+    g4 = rh2 * b2 + k2 * b4 + (u2 + u2) * c4
+    return (
+        a0 * e1 + a1 * d_q1 + a2 * b2 + a3 * c2,
+        a0 * d_q1 + a1 * b2 + a2 * c2 + a3 * g2,
+        a0 * e3 + a1 * d_q2 + a2 * b4 + a3 * c4,
+        a0 * d_q2 + a1 * b4 + a2 * c4 + a3 * g4,
+    )
 
 
 @inlined
@@ -11,6 +38,8 @@ def roe(slow, low, high, fast, at_slow, at_fast):
     sign). `at_slow` and `at_fast` are the sizes of the outer speeds, or more where an entropy fix asks for it. The
     mean of both orders of the nodes, so that a mirrored edge has mirrored bits.
     """
+    at_slow = min(at_slow, abs(low) + (low - slow))  # no slope is beyond +-1
+    at_fast = min(at_fast, abs(high) + (fast - high))
     a0, a1, a2, a3 = newton_form(slow, low, high, fast, at_slow, at_fast)
     b0, b1, b2, b3 = newton_form(-fast, -high, -low, -slow, at_fast, at_slow)
     half = type(slow)(0.5)
