@@ -201,14 +201,15 @@ def test_roe_viscosity_is_the_absolute_value_of_the_roe_matrix(w_i, w_j, r):
     viscous = (vectors * np.abs(values)) @ np.linalg.solve(vectors, conserved(w_j) - conserved(w_i))
     flux, _ = fluxes("roe", r, w_i, w_j)
     expected = (advection(w_i) + advection(w_j) - viscous.real) / 2
-    np.testing.assert_allclose(flux, expected, atol=1e-7 * (1 + np.abs(expected).max()))
+    np.testing.assert_allclose(flux, expected, atol=1e-5 * (1 + np.abs(expected).max()))  # three Newton steps
 
 
 def test_own_front_changes_the_grains_at_a_dry_edge_alone():
     wet, dry = (1.0, 0.1, 0.5, 0.2), (1.5, 0.1, 0.0, 0.0)
     own, _ = fluxes("ifcph", 0.6, wet, dry)
     system, _ = fluxes("ifcph", 0.6, wet, dry, own_front=False)
-    assert own[0] == system[0] and own[1] == system[1] and own[2] != system[2]
+    assert own[:2].tolist() == system[:2].tolist()
+    assert own[2] != system[2]
     inside = (1.0, 0.1, 0.5, 0.2), (1.1, 0.0, 0.4, 0.1)
     np.testing.assert_array_equal(
         fluxes("ifcph", 0.6, *inside)[0], fluxes("ifcph", 0.6, *inside, own_front=False)[0]
