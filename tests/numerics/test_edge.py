@@ -171,7 +171,9 @@ def test_grains_alone_are_consistent(h_i, u_i, h_j, u_j):
     assert back == (-f, m, -p)
 
 
-@given(nodes=st.lists(st.floats(-3, 3), min_size=4, max_size=4), more=st.floats(0, 1))
+@given(
+    nodes=st.lists(st.integers(-96, 96).map(lambda n: n / 32), min_size=4, max_size=4), more=st.floats(0, 1)
+)
 def test_roe_polynomial_takes_the_absolute_value_at_four_speeds(nodes, more):
     x = np.sort(nodes)
     a = roe(*x, abs(x[0]) + more * (x[1] - x[0] > 0.1), abs(x[3]))
@@ -201,7 +203,7 @@ def test_roe_viscosity_is_the_absolute_value_of_the_roe_matrix(w_i, w_j, r):
     viscous = (vectors * np.abs(values)) @ np.linalg.solve(vectors, conserved(w_j) - conserved(w_i))
     flux, _ = fluxes("roe", r, w_i, w_j)
     expected = (advection(w_i) + advection(w_j) - viscous.real) / 2
-    np.testing.assert_allclose(flux, expected, atol=1e-5 * (1 + np.abs(expected).max()))  # three Newton steps
+    np.testing.assert_allclose(flux, expected, atol=1e-9 * (1 + np.abs(expected).max()))
 
 
 def test_own_front_changes_the_grains_at_a_dry_edge_alone():
