@@ -80,8 +80,9 @@ def faces(s, c, left, right, mk, ratio, source, dt):
         h2 = c.h2[i]
         u2 = c.u2[i]
         s_u1 = mc(u1 - c.u1[i - 1], c.u1[i + 1] - u1)
+        moving = c.speed2[i] > reach
         s_h2, s_u2 = grain_slopes(
-            s.r, s.dry_depth, c.h2[i - 1], c.u2[i - 1], h2, u2, c.h2[i + 1], c.u2[i + 1]
+            s.r, s.dry_depth, moving, c.h2[i - 1], c.u2[i - 1], h2, u2, c.h2[i + 1], c.u2[i + 1]
         )
         s_eta, s_h1, s_h2 = depth_slopes(
             h1,

@@ -105,11 +105,12 @@ def faces(s, c, mk, j, left, right, lower, upper, b, u, dt):
     for i in range(1, c.h1.shape[1] - 1):
         h1, u1, v1 = c.h1[j, i], c.u1[j, i], c.v1[j, i]
         h2, u2, v2 = c.h2[j, i], c.u2[j, i], c.v2[j, i]
+        moving = c.speed2[j, i] > dt * static
         x_h2, x_u2 = grain_slopes(
-            s.r, s.dry_depth, c.h2[j, i - 1], c.u2[j, i - 1], h2, u2, c.h2[j, i + 1], c.u2[j, i + 1]
+            s.r, s.dry_depth, moving, c.h2[j, i - 1], c.u2[j, i - 1], h2, u2, c.h2[j, i + 1], c.u2[j, i + 1]
         )
         y_h2, y_v2 = grain_slopes(
-            s.r, s.dry_depth, c.h2[j - 1, i], c.v2[j - 1, i], h2, v2, c.h2[j + 1, i], c.v2[j + 1, i]
+            s.r, s.dry_depth, moving, c.h2[j - 1, i], c.v2[j - 1, i], h2, v2, c.h2[j + 1, i], c.v2[j + 1, i]
         )
         x = Side(
             mc(c.eta[j, i] - c.eta[j, i - 1], c.eta[j, i + 1] - c.eta[j, i]),

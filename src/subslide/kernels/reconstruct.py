@@ -19,12 +19,12 @@ def mc(left, right):
 
 
 @inlined
-def grain_slopes(r, dry_depth, h_l, u_l, h, u, h_r, u_r):
-    """Return the slopes of the grains' depth and normal velocity, limited in u -+ 2 sqrt(g (1-r) h2).
+def grain_slopes(r, dry_depth, moving, h_l, u_l, h, u, h_r, u_r):
+    """Return the slopes of the grains' depth and normal velocity, limited in u -+ 2 sqrt(g (1-r) h2) if they move.
 
     These invariants of grains under still water are linear in the fan behind a front, where the depth is not: the
     front lags a third less than with slopes limited in depth and velocity. A dry neighbour counts as the tip of such
-    a fan.
+    a fan. Grains at rest keep slopes of the depth: at the foot of a pile those of the root are too steep to be held.
     """
     real = type(r)
     half = real(0.5)
@@ -32,11 +32,13 @@ def grain_slopes(r, dry_depth, h_l, u_l, h, u, h_r, u_r):
     c_l = two_root(reduced * h_l)
     c = two_root(reduced * h)
     c_r = two_root(reduced * h_r)
-    u_l = u - c if h_l <= dry_depth else u_l
-    u_r = u + c if h_r <= dry_depth else u_r
-    rising = mc((u + c) - (u_l + c_l), (u_r + c_r) - (u + c))
-    falling = mc((u - c) - (u_l - c_l), (u_r - c_r) - (u - c))
-    return half * half * c * (rising - falling) / reduced, half * (rising + falling)
+    tip_l = u - c if h_l <= dry_depth else u_l
+    tip_r = u + c if h_r <= dry_depth else u_r
+    rising = mc((u + c) - (tip_l + c_l), (tip_r + c_r) - (u + c))
+    falling = mc((u - c) - (tip_l - c_l), (tip_r - c_r) - (u - c))
+    s_h = half * half * c * (rising - falling) / reduced
+    s_u = half * (rising + falling)
+    return (s_h if moving else mc(h - h_l, h_r - h)), (s_u if moving else mc(u - u_l, u_r - u))
 
 
 @inlined
