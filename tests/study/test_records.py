@@ -216,3 +216,11 @@ def test_numerics_may_differ_within_a_batch(tmp_path, make_run):
     with open_record(tmp_path / "b.nc") as data:
         assert data["scheme"].values.tolist() == ["ifcph", "hll"]
         assert data["dtype"].values.tolist() == ["float64", "float32"]
+
+
+def test_options_of_scenes_are_text(tmp_path, make_run):
+    options = ((), (("angle", 3.0), ("side", "left")))
+    points = [Point(model="radial", cells=20, scene_options=pairs) for pairs in options]
+    records.write(tmp_path / "x.nc", [make_run(point) for point in points])
+    found, _ = records.read(tmp_path / "x.nc")
+    assert [tuple(json.loads(text).items()) for text in found["scene_options"].values] == list(options)
