@@ -1,0 +1,82 @@
+"""From one quantity on three grids, each twice as fine as the next, to its limit and a band of error.
+
+Richardson's extrapolation and the grid convergence index (P. J. Roache, J. Fluids Eng. 116, 405, 1994; I. B. Celik et
+al., J. Fluids Eng. 130, 078001, 2008). The band bounds the error of the discretisation alone: nothing is said of the
+model, of its parameters, or of the threshold that defines a front.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+RATIO = 2.0
+"""Of the cell sizes of one grid and the next."""
+
+SAFETY = 1.25
+"""Roache's factor of safety where three grids give the order; it makes the band a bound in about 95 % of cases."""
+
+LOWEST_ORDER = 0.3
+"""Below it the extrapolation is more than 1 / (2^0.3 - 1) = 4.3 times the last difference, and means nothing."""
+
+ROUND_OFF = 64.0
+"""Differences of so many units in the last place are no differences: the solver's own margin for sums."""
+
+CONVERGING, NOT_CONVERGED = "converging", "not converged"
+
+
+class Estimate(NamedTuple):
+    """Observed order, estimate of the limit, half-width of the band about the finest value, and a word on it all.
+
+    What does not exist is NaN: limit and band unless `convergence` is 'converging', order also where the two finest
+    values agree to round-off or the differences change sign.
+    """
+
+    order: float
+    limit: float
+    band: float
+    convergence: str
+
+
+UNKNOWN = Estimate(math.nan, math.nan, math.nan, NOT_CONVERGED)
+
+
+def estimate(
+    f1: float, f2: float, f3: float, formal: float, *, scale: float = 0.0, dtype="float64"
+) -> Estimate:
+    """Return the `Estimate` of a quantity from its values on three grids: f1 (finest), f2 (cells/2), f3 (cells/4).
+
+    Order p = log2((f3 - f2)/(f2 - f1)), limit f1 + (f1 - f2)/(2^p - 1), band 1.25 |f3 - f2|/2^q/(2^q - 1) with
+    q = min(p, formal).
+
+    formal: order at which the quantity can converge at best. Where p <= formal the band is Roache's index times |f1|,
+    1.25 |f1 - f2|/(2^p - 1). A p above it says that f1 and f2 agree by chance, on their way through a turning point or
+    before the leading error rules. Then their difference is no measure of the error, in whatever formula, and what the
+    coarser pair would leave at the formal order takes its place. The limit takes p itself, as it states where the three
+    values point; it is never farther from f1 than 0.8 of the band.
+
+    scale: size of the numbers from which the quantity was a difference, such as the depth of water for a displacement
+    of its surface; with `dtype`, that of the run, it tells what is round-off.
+
+    Differences that change sign, or that shrink slower than h^0.3 or not at all, are 'not converged', without limit
+    and band: an oscillation has no order, and its size is no bound on what finer grids would show. Where the two
+    finest values agree to round-off p is beyond telling: 'converging', the limit is f1, and q the formal order, so
+    that the band vanishes where all three agree. A value that is not finite is 'not converged'.
+    """
+    if not all(map(math.isfinite, (f1, f2, f3))):
+        return UNKNOWN
+    last, before = f2 - f1, f3 - f2
+    if abs(last) <= ROUND_OFF * float(np.finfo(dtype).eps) * max(abs(f1), abs(f2), scale):
+        return Estimate(math.nan, f1, _band(before, formal), CONVERGING)
+    ratio = before / last
+    if ratio <= 0:
+        return UNKNOWN
+    order = math.log(ratio, RATIO)
+    if order < LOWEST_ORDER:
+        return Estimate(order, math.nan, math.nan, NOT_CONVERGED)
+    return Estimate(order, f1 - last / (ratio - 1), _band(before, min(order, formal)), CONVERGING)
+
+
+def _band(before: float, order: float) -> float:
+    """Half-width of the band, from the difference of the two coarser values if it falls at this order."""
+    return SAFETY * abs(before) / RATIO**order / (RATIO**order - 1)
