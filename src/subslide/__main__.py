@@ -90,7 +90,10 @@ def check(config):
 
     for path in config:
         study = read_study(path)
-        click.echo(f"{path}: study '{study.name}', {len(study.runs)} runs, {len(study.figures)} figures")
+        more = f" and {len(study.solved) - len(study.runs)} companions for bands" if study.bands else ""
+        click.echo(
+            f"{path}: study '{study.name}', {len(study.runs)} runs{more}, {len(study.figures)} figures"
+        )
 
 
 @cli.command()

@@ -1,7 +1,10 @@
 """From a YAML file to a study: checked values, and the table of its points."""
 
+import contextlib
 import itertools
-from dataclasses import dataclass
+import math
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from subslide import figures, schema
@@ -10,20 +13,42 @@ from subslide.schema import ConfigError
 
 MOST_POINTS = 200_000
 MOST_PLANE_CELLS = 10_000
+FEWEST_CELLS = 10
+CASE_KEYS = ("numerics", *RUN_KEYS)
+COARSENING = {"cells/2": 2, "cells/4": 4}
+"""Role of each companion of a run in a study with bands, and how many times fewer cells it has."""
 
 
 @dataclass(frozen=True)
 class Study:
-    """A checked study: its name, the figures to draw, and its runs as (label of numerics, point), without repeats."""
+    """A checked study: its name, the figures to draw, its runs as (label of numerics, point), without repeats, and
+    whether each run has companions on coarser grids."""
 
     name: str
     figures: tuple[str, ...]
     runs: tuple[tuple[str, Point], ...]
+    bands: bool = False
 
     @property
     def points(self) -> tuple[Point, ...]:
         """Points in the order of the tables."""
         return tuple(point for _, point in self.runs)
+
+    @property
+    def companions(self) -> tuple[tuple[Point, str, Point], ...]:
+        """Run, role and point of each companion: none without bands, else two for each run."""
+        return tuple(
+            (point, role, replace(point, cells=point.cells // ratio))
+            for point in self.points
+            if self.bands
+            for role, ratio in COARSENING.items()
+        )
+
+    @property
+    def solved(self) -> tuple[Point, ...]:
+        """Points to solve, without repeats: the runs, then those companions that are not runs as well."""
+        found = {point.id: point for point in (*self.points, *(point for *_, point in self.companions))}
+        return tuple(found.values())
 
 
 def read_yaml(path: Path | str) -> dict:
@@ -69,27 +94,31 @@ def make_study(values: dict) -> Study:
     if "study" not in values:
         raise ConfigError(f"study: this key is missing; allowed: {schema.allowed('study')}")
     name = schema.checked("study", values["study"])
-    axes = {key: _axis(key, values[key]) for key in ("numerics", *RUN_KEYS) if key in values}
-    count = 1
-    for entries in axes.values():
-        count *= len(entries)
+    bands = schema.checked("bands", values.get("bands", schema.properties()["bands"]["default"]))
+    grids = _grids(values)
+    count = sum(math.prod(map(len, axes.values())) for _, axes in grids)
     if count > MOST_POINTS:
         raise ConfigError(f"the grid has {count} points; allowed: at most {MOST_POINTS}")
     runs = {}
-    for combination in itertools.product(*axes.values()):
-        label, point = resolve(dict(zip(axes, combination, strict=True)))
-        runs.setdefault(point.id, (label, point))
+    for place, axes in grids:
+        with _named(place):
+            for label, point in _product(axes, bands):
+                runs.setdefault(point.id, (label, point))
     runs = tuple(runs.values())
-    return Study(name, _chosen_figures(values, [point for _, point in runs]), runs)
+    return Study(name, _chosen_figures(values, [point for _, point in runs]), runs, bands)
 
 
 def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
     """Point of a mapping with one value for each key; `names` are the keys' names in messages (options)."""
     _check_keys(values)
+    if "cases" in values:
+        raise ConfigError(
+            f"cases: {schema.show(values['cases'])} is not allowed for one run; allowed: only in a study"
+        )
     names = names or {}
     single = {}
     for key, value in values.items():
-        if key not in ("numerics", *RUN_KEYS):
+        if key not in CASE_KEYS:
             continue
         if schema.is_axis(key) and isinstance(value, list):
             if len(value) != 1:
@@ -116,14 +145,66 @@ def resolve(values: dict) -> tuple[str, Point]:
     return label, point
 
 
-def _check_keys(values: dict) -> None:
-    for key in values:
-        if key not in schema.properties():
-            hint = schema.closest(key, schema.properties())
-            known = "" if hint else f"; allowed: {', '.join(schema.properties())}"
+def _grids(values: dict) -> list[tuple[str, dict[str, list]]]:
+    """Place in messages, and axes by key, of each case; without `cases`, of the one grid, which has no place."""
+    shared = _axes(values)
+    if "cases" not in values:
+        return [("", shared)]
+    found = []
+    for n, case in enumerate(schema.checked("cases", values["cases"])):
+        place = f"cases[{n}]"
+        if not isinstance(case, dict):
+            shown = schema.show(case)
+            raise ConfigError(f"{place}: {shown} is not allowed; allowed: a mapping of keys of a run")
+        with _named(f"{place}."):
+            _check_keys(case, CASE_KEYS)
+            axes = {**shared, **_axes(case)}
+        found.append((f"{place}.", {key: axes[key] for key in CASE_KEYS if key in axes}))
+    return found
+
+
+def _axes(values: dict) -> dict[str, list]:
+    """Values along its axis, checked, of each key of a run that a mapping has."""
+    return {key: _axis(key, values[key]) for key in CASE_KEYS if key in values}
+
+
+def _product(axes: dict[str, list], bands: bool) -> Iterator[tuple[str, Point]]:
+    """Label of the numerics, and point, of each combination along the axes; `bands`: cells must halve twice."""
+    for combination in itertools.product(*axes.values()):
+        label, point = resolve(dict(zip(axes, combination, strict=True)))
+        coarsest, left = divmod(point.cells, max(COARSENING.values()))
+        if bands and (left or coarsest < FEWEST_CELLS):
             raise ConfigError(
-                f"{schema.show(key)}: there is no such key (its value: {schema.show(values[key])}){hint}{known}"
+                f"cells: {point.cells} is not allowed with bands: true, which needs runs with cells/2 and cells/4;"
+                f" allowed: a multiple of 4 from {4 * FEWEST_CELLS}"
             )
+        yield label, point
+
+
+@contextlib.contextmanager
+def _named(place: str) -> Iterator[None]:
+    """Context in which the message of a ConfigError, which begins with a key, gets the key's place before it."""
+    try:
+        yield
+    except ConfigError as error:
+        raise ConfigError(f"{place}{error}") from None
+
+
+def _check_keys(values: dict, known: Collection[str] | None = None) -> None:
+    """Nothing; ConfigError unless every key is known: one of a study, or of `known`, those of a case."""
+    known = schema.properties() if known is None else known
+    for key in values:
+        if key in known:
+            continue
+        if key in schema.properties():
+            raise ConfigError(
+                f"{key}: {schema.show(values[key])} is not allowed within a case; allowed: only for a whole study"
+            )
+        hint = schema.closest(key, known)
+        listed = "" if hint else f"; allowed: {', '.join(known)}"
+        raise ConfigError(
+            f"{schema.show(key)}: there is no such key (its value: {schema.show(values[key])}){hint}{listed}"
+        )
 
 
 def _axis(key: str, value) -> list:

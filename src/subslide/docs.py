@@ -1,6 +1,6 @@
 """Pages of documentation that follow from the code, so that each fact has one place."""
 
-from subslide import fields, schema, tables
+from subslide import bands, convergence, fields, schema, tables
 
 CONFIG_PAGE, TABLES_PAGE = "config/README.md", "docs/tables.md"
 
@@ -25,6 +25,21 @@ r: [0, 0.4]
 delta: [25, 30, 35]
 model: radial
 ```
+
+A study that is no single product is a list of `cases`, each the product of its own lists; the keys beside `cases` are
+the defaults of all, and a case's own key wins. Messages count the cases from 0.
+
+```yaml
+study: joined
+model: radial
+delta: 25
+cases:
+  - {a_H: [1, 2, 4], r: 0.4}
+  - {a_H: 1, r: [0, 0.2, 0.6], delta: [25, 35]}
+```
+
+`bands: true` solves each run on two coarser grids as well, and estimates from the three what the finest leaves
+uncertain; see `bands.csv` in docs/tables.md. Adding or removing it computes the coarser runs alone, or nothing.
 
 Changing the lists computes only what is new: each point has a name that depends on its values alone (`1` and `1.0`
 are the same), a ledger in `results/<study>/batches/` remembers which record holds it, and points that are no longer
@@ -91,8 +106,33 @@ def columns() -> str:
                 f" {tables.MOST_RUNS_IN_CSV} runs it is `series.parquet` instead. Quantities:",
                 quantities,
             ),
+            _section("bands.csv", _bands_text(), bands.COLUMNS),
         )
     )
+
+
+def _bands_text() -> str:
+    """What the table of bands holds, and how its estimates are made."""
+    quantities = "\n".join(f"- `{name}`: {text}" for name, text in bands.QUANTITIES.items())
+    low, safety = convergence.LOWEST_ORDER, convergence.SAFETY
+    return f"""One row for each run, quantity and time, in studies with `bands: true` only. Each run has two companions,
+equal but for their coarser grids, which have no rows elsewhere. From the values f1 (the run), f2 (cells/2) and f3
+(cells/4) follow the observed order p = log2((f3 - f2)/(f2 - f1)), the limit f1 + (f1 - f2)/(2^p - 1) of Richardson's
+extrapolation, and the band {safety} |f1 - f2|/(2^p - 1): the grid convergence index times the value (Roache 1994;
+Celik et al. 2008). Fronts and waves that come of a jump converge at first order in either scheme; where p > 1, f1 and
+f2 agree by chance, and the band is {safety} |f3 - f2|/2, what the coarser pair leaves at first order. So the band
+estimates, with a factor of safety of {safety}, how far the value lies from that on ever finer grids. It is a bound on
+the error of discretisation alone, and says nothing of the model's own error, its parameters, or the threshold that
+defines a front.
+
+`{convergence.NOT_CONVERGED}`: the differences change sign, grow, or shrink with an order below {low}, or one of the
+three runs failed; then there is no limit and no band, and the value is known no better than the three tell. Where f1
+and f2 agree to round-off the limit is f1 and no order is given. Times are those of the run's `snapshot_times` after the
+start.
+
+Quantities:
+
+{quantities}"""
 
 
 def _section(title: str, text: str, rows: dict[str, tuple[str, str]]) -> str:

@@ -18,8 +18,11 @@ from subslide.config import Study
 from subslide.jobs import file_hash
 from subslide.points import Point, to_dict
 
-SECONDS = (1.0, 60.0)
+SECONDS = (2.0, 60.0)
 """Least and greatest estimated cost of a batch: starting a process costs a second; a lost batch at most a minute."""
+
+SECONDS_PER_CELL = {"axial": 2.5e-8, "planar": 6e-8}
+"""Of one step and order of accuracy, on one core."""
 
 PARTS = 16
 """Batches that a set of new points makes if their cost allows it."""
@@ -44,21 +47,38 @@ def plan(study: Study, folder: Path, extend: bool) -> Plan:
     folder: the study's folder of results. Only the process that plans may extend the ledger.
     """
     owner, kernels = read(folder)
-    new = [point for point in study.points if point.id not in owner]
+    solved = study.solved
+    new = [point for point in solved if point.id not in owner]
     if new and not extend:
         raise LedgerError(f"{folder}: {len(new)} points are in no batch; run the study from its main process")
     while new:
         _append(folder, split(new))
         owner, kernels = read(folder)
-        new = [point for point in study.points if point.id not in owner]
+        new = [point for point in solved if point.id not in owner]
     if extend:
-        rows = [
+        folder.mkdir(parents=True, exist_ok=True)
+        write_json(folder / "points.json", _index(study, owner))
+    return Plan({batch: kernels[batch] for batch in sorted({owner[point.id] for point in solved})})
+
+
+def _index(study: Study, owner: dict[str, str]) -> dict:
+    """What points.json holds: the runs in the order of the tables and, apart, the companions of a study with bands.
+
+    A companion states the id of its run (`of`) and its role; a point that is companion of two runs is there twice.
+    """
+    found = {
+        "study": study.name,
+        "points": [
             {"id": point.id, "batch": owner[point.id], "numerics": label, **to_dict(point)}
             for label, point in study.runs
+        ],
+    }
+    if study.bands:
+        found["companions"] = [
+            {"id": point.id, "of": run.id, "role": role, "batch": owner[point.id], **to_dict(point)}
+            for run, role, point in study.companions
         ]
-        folder.mkdir(parents=True, exist_ok=True)
-        write_json(folder / "points.json", {"study": study.name, "points": rows})
-    return Plan({batch: kernels[batch] for batch in sorted({owner[point.id] for point in study.points})})
+    return found
 
 
 def read(folder: Path) -> tuple[dict[str, str], dict[str, str]]:
@@ -97,12 +117,19 @@ def kernels_of(point: Point) -> str:
 
 
 def cost(point: Point) -> float:
-    """Estimated seconds of a run on one core: cells times steps, and a start."""
-    across = point.cells * 0.6
-    paper_seconds = 0.6 * math.sqrt(point.radius / 0.0705)
-    steps = 2.4 * across * (point.t_end or paper_seconds) / paper_seconds / point.cfl
-    cells = {"quarter": across**2, "plane": 4 * across**2}.get(point.model, across)
-    return 0.005 + 4e-8 * cells * steps * point.order
+    """Estimated seconds of a run on one core: cells times steps, and a start.
+
+    A step is limited by the fastest wave, sqrt(g (H1 + H2)), over the paper's time unless the run has one of its own.
+    `auto` counts as one-dimensional, as it is for the round column.
+    """
+    half = point.cells / 2
+    cells, kind = {"quarter": (half**2, "planar"), "plane": (4 * half**2, "planar")}.get(
+        point.model, (half, "axial")
+    )
+    seconds = point.t_end or 0.54 * math.sqrt(point.radius / 0.0705)
+    fastest = math.sqrt(point.g * point.a_2 * point.radius * (1 + point.a_H))
+    steps = seconds * fastest / (point.cfl * point.dx) * (2 if kind == "planar" else 1)
+    return 0.005 + SECONDS_PER_CELL[kind] * cells * steps * point.order
 
 
 def damaged(folder: Path, batches: Iterable[str]) -> list[Path]:

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from subslide import records
+from subslide import bands, records
 from subslide.schema import ConfigError
 
 
@@ -21,9 +21,19 @@ class Results:
     @functools.cached_property
     def points(self) -> list[dict]:
         """Runs in the order of the tables: id, batch, label of the numerics, and every key of the point."""
+        return self._index["points"]
+
+    @functools.cached_property
+    def companions(self) -> list[dict]:
+        """Coarser runs of a study with bands: id, the run it is a companion `of`, its role, batch, and every key."""
+        return self._index.get("companions", [])
+
+    @functools.cached_property
+    def _index(self) -> dict:
+        """What points.json holds."""
         path = self.folder / "points.json"
         try:
-            return json.loads(path.read_text(encoding="utf-8"))["points"]
+            return json.loads(path.read_text(encoding="utf-8"))
         except FileNotFoundError:
             raise ConfigError(
                 f"{path}: there is no such file; allowed: the folder of a study that was run"
@@ -39,6 +49,12 @@ class Results:
         """Tidy table of series: id, time (s), quantity, value."""
         parquet = self.folder / "tables" / "series.parquet"
         return pd.read_parquet(parquet) if parquet.exists() else pd.read_csv(parquet.with_suffix(".csv"))
+
+    @functools.cached_property
+    def bands(self) -> pd.DataFrame:
+        """Tidy table of bands (tables/bands.csv): a row for each run, quantity and time; empty without bands."""
+        path = self.folder / "tables" / "bands.csv"
+        return pd.read_csv(path) if path.exists() else pd.DataFrame(columns=list(bands.COLUMNS))
 
     def select(self, **values) -> pd.DataFrame:
         """Rows of the table of runs whose columns equal the given values; numbers to nine digits."""

@@ -5,6 +5,7 @@
 
 import functools
 import itertools
+import json
 import math
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,13 +14,14 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from subslide import fields, schema
+from subslide import bands, fields, schema
 from subslide.atomic import replacing, write_text
-from subslide.points import RUN_KEYS, friction_number, from_dict
+from subslide.config import COARSENING
+from subslide.points import RUN_KEYS, Point, friction_number, from_dict
 from subslide.results import Results, trimmed
 
 MOST_RUNS_IN_CSV = 1000
-THRESHOLDS = {f"{100 * fraction:g}pc": n for n, fraction in enumerate(fields.FRONT_THRESHOLDS)}
+THRESHOLDS = bands.THRESHOLDS
 PAPER_BOX = 4.2553
 """Half-width of the smallest box over R."""
 
@@ -54,6 +56,11 @@ COLUMNS = {
     ),
     "water_volume_error": ("", "the same for water"),
     "nonhyperbolic_cells_max": ("", "most cells, at any one time, where the wave speeds are complex"),
+    **{
+        f"{name}_{part}": (bands.COLUMNS[part][0], f"`{part}` of {name} in bands.csv; empty without bands")
+        for name in bands.ONCE
+        for part in bands.SUMMARY
+    },
 }
 TIMING = {
     "id": ("", "name of the run"),
@@ -76,9 +83,19 @@ def write(folder: Path) -> list[Path]:
         tables / "timing.csv",
         tables / ("series.parquet" if many else "series.csv"),
     ]
+    found = list(band_rows(results))
+    if found:
+        paths.append(tables / "bands.csv")
+        write_text(
+            paths[-1],
+            pd.DataFrame(found, columns=list(bands.COLUMNS)).to_csv(index=False, lineterminator="\n"),
+        )
+    else:
+        (tables / "bands.csv").unlink(missing_ok=True)
+    summaries = bands.summaries(found)
     rows, timings = [], []
     for row, run in _runs(results):
-        rows.append(run_row(row, run))
+        rows.append({**run_row(row, run), **summaries.get(row["id"], {})})
         timings.append(timing_row(run))
     write_text(paths[0], pd.DataFrame(rows, columns=list(COLUMNS)).to_csv(index=False, lineterminator="\n"))
     write_text(paths[1], pd.DataFrame(timings, columns=list(TIMING)).to_csv(index=False, lineterminator="\n"))
@@ -88,10 +105,28 @@ def write(folder: Path) -> list[Path]:
     return paths
 
 
+def band_rows(results: Results) -> Iterator[dict]:
+    """Rows of the table of bands, by column, in the order of the runs; none if the study has no bands."""
+    companions = {(row["of"], row["role"]): row for row in results.companions}
+    if not companions:
+        return
+    batches = {row["id"]: row["batch"] for row in (*results.points, *companions.values())}
+    measured = {}
+    for batch in dict.fromkeys(batches.values()):
+        data = _loaded(results, batch)
+        for name in data["id"].values:
+            if batches.get(name) == batch:
+                measured[name] = bands.measure(trimmed(data, name))
+    for row in results.points:
+        names = (row["id"], *(companions[row["id"], role]["id"] for role in COARSENING))
+        yield from bands.rows(_point(row), *(measured[name] for name in names))
+
+
 def run_row(row: dict, run: xr.Dataset) -> dict:
     """Row of the table of runs, by column. row: the point's values; run: its record."""
-    point = from_dict({key: row[key] for key in RUN_KEYS})
+    point = _point(row)
     found = {key: row[key] for key in ("id", "numerics", *RUN_KEYS) if key != "snapshot_times"}
+    found["scene_options"] = json.dumps(row["scene_options"])
     found.update(m=friction_number(point), resolved_model=str(run["model"].values))
     for name in ("dx", "steps", "time_at_rest", "box_half_width", "status", "status_detail"):
         found[name] = run[name].item()
@@ -149,10 +184,20 @@ def _runs(results: Results) -> Iterator[tuple[dict, xr.Dataset]]:
 
     @functools.lru_cache(maxsize=16)
     def loaded(batch: str) -> xr.Dataset:
-        return results.batch(batch).drop_dims(["x", "y"], errors="ignore").load()
+        return _loaded(results, batch)
 
     for row in results.points:
         yield row, trimmed(loaded(row["batch"]), row["id"])
+
+
+def _point(row: dict) -> Point:
+    """Point of a row of points.json."""
+    return from_dict({key: row[key] for key in RUN_KEYS})
+
+
+def _loaded(results: Results, batch: str) -> xr.Dataset:
+    """Record of a batch in memory, without profiles."""
+    return results.batch(batch).drop_dims(["x", "y"], errors="ignore").load()
 
 
 def _peak(values: np.ndarray, time: np.ndarray) -> tuple[float, float]:

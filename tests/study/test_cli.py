@@ -101,7 +101,7 @@ def test_help_states_unit_default_and_range_of_every_key(capsys):
 
 def test_check_tells_what_a_study_holds(capsys, root):
     assert main(["check", str(root / "config/paper.yaml")]) == 0
-    assert "study 'paper', 15 runs" in capsys.readouterr().out
+    assert "study 'paper', 30 runs and 60 companions for bands" in capsys.readouterr().out
 
 
 def test_run_prints_one_line_and_options_win_over_the_file(capsys, write_yaml):

@@ -1,5 +1,7 @@
 """Configurations: what is accepted, and that each mistake gives one line with key, value and what is allowed."""
 
+import re
+
 import pytest
 
 from subslide import config, docs, figures, schema
@@ -38,12 +40,30 @@ MISTAKES = {
     "a_H: [1": ("not valid YAML",),
     "a_H: \x00": ("not valid YAML",),
     "a: &a [*a]": ("a:", "no such key"),
+    "bands: 3": ("bands: 3", "true or false"),
+    "{bands: true, cells: 50}": ("cells: 50", "bands: true", "multiple of 4 from 40"),
+    "{bands: true, cells: 36}": ("cells: 36", "bands: true", "multiple of 4 from 40"),
+    "{bands: true, cells: [80, 81]}": ("cells: 81", "bands: true"),
+    "cases: []": ("cases: []", "list of mappings"),
+    "cases:": ("cases: nothing", "list of mappings"),
+    "cases: {a_H: 1}": ("cases: ", "list of mappings"),
+    "cases: [{}, 3]": ("cases[1]: 3", "a mapping of keys of a run"),
+    "cases: [{}, {}, {delta: 95}]": ("cases[2].delta: 95", "from 0 to below 90"),
+    "cases: [{a_H: []}]": ("cases[0].a_H: []", "empty grid"),
+    "cases: [{detla: 30}]": ("cases[0].detla", "30", "did you mean 'delta'?"),
+    "cases: [{figur: none}]": ("cases[0].figur", "no such key"),
+    "cases: [{}, {bands: true}]": ("cases[1].bands: true", "within a case"),
+    "cases: [{cases: [{}]}]": ("cases[0].cases", "within a case"),
+    "cases: [{study: x}]": ("cases[0].study: x", "within a case"),
+    "cases: [{figures: none}]": ("cases[0].figures: none", "within a case"),
+    "cases: [{r: 0, model: one-layer}, {r: 0.4, model: one-layer}]": ("cases[1].model: one-layer", "r: 0.4"),
+    "cases: [{a_H: 1, a_H: 2}]": ("line 2", "'a_H' is given twice"),
 }
 
 
 @pytest.mark.parametrize("text", MISTAKES)
 def test_mistake_gives_one_line_with_key_value_and_range(text, write_yaml):
-    inside = text.strip("{}").replace(", ", "\n") if text.startswith("{") else text
+    inside = re.sub(", (?=[a-z]+:)", "\n", text.strip("{}")) if text.startswith("{") else text
     path = write_yaml(f"study: t\n{inside}\n")
     with pytest.raises(ConfigError) as caught:
         config.read_study(path)
@@ -90,6 +110,65 @@ def test_points_that_come_twice_run_once():
     assert [p.a_H for p in study.points] == [1, 2]
 
 
+def test_cases_are_joined_products_whose_keys_win_over_those_beside_them(write_yaml):
+    study = config.read_study(
+        write_yaml(
+            "study: t\nmodel: radial\na_H: [1, 2]\ndelta: 25\ncases:\n"
+            "  - r: [0, 0.4]\n  - {delta: [30, 35], a_H: 4}\n  - {a_H: 2, r: 0.4}\n  - {}\n"
+        )
+    )
+    assert [(p.a_H, p.r, p.delta) for p in study.points] == [
+        *((a_H, r, 25) for a_H in (1, 2) for r in (0, 0.4)),
+        *((4, 0.4, delta) for delta in (30, 35)),
+    ]
+    assert {p.model for p in study.points} == {"radial"}
+
+
+def test_axes_of_a_case_run_in_the_order_of_keys_wherever_they_stand():
+    one = config.make_study({"study": "t", "r": [0, 0.4], "a_H": [1, 2]})
+    assert config.make_study({"study": "t", "r": [0, 0.4], "cases": [{"a_H": [1, 2]}]}).runs == one.runs
+
+
+def test_cases_may_differ_in_what_is_no_axis_and_in_numerics():
+    study = config.make_study(
+        {
+            "study": "t",
+            "snapshot_times": [0.1],
+            "cases": [{"numerics": "paper", "fields": True}, {"snapshot_times": [0.2, 0.3]}],
+        }
+    )
+    first, second = study.points
+    assert (first.fields, first.snapshot_times, first.model) == (True, (0.1,), "quarter")
+    assert (second.fields, second.snapshot_times, second.model) == (False, (0.2, 0.3), "auto")
+    assert [label for label, _ in study.runs] == ["paper", "default"]
+
+
+def test_too_many_points_in_all_cases_are_refused():
+    values = {key: [n / 1000 for n in range(1, 400)] for key in ("a_H", "r")}
+    assert 399**2 < config.MOST_POINTS < 2 * 399**2
+    with pytest.raises(ConfigError, match="318402 points"):
+        config.make_study({"study": "t", "cases": [values, values]})
+
+
+def test_a_run_takes_no_cases():
+    with pytest.raises(ConfigError, match="cases.*only in a study"):
+        config.make_point({"cases": [{"a_H": 1}]})
+
+
+def test_companions_have_half_and_a_quarter_of_the_cells_and_equal_points_are_solved_once():
+    axes = {"study": "t", "model": "radial", "cells": [160, 80]}
+    plain, study = config.make_study(axes), config.make_study({**axes, "bands": True})
+    assert (plain.companions, plain.solved) == ((), plain.points)
+    assert study.points == plain.points
+    assert [(run.cells, role, p.cells) for run, role, p in study.companions] == [
+        (160, "cells/2", 80),
+        (160, "cells/4", 40),
+        (80, "cells/2", 40),
+        (80, "cells/4", 20),
+    ]
+    assert [p.cells for p in study.solved] == [160, 80, 40, 20]
+
+
 def test_too_large_a_grid_is_refused():
     values = {"study": "t", **{key: [n / 1000 for n in range(1, 200)] for key in ("a_H", "r", "a_2")}}
     with pytest.raises(ConfigError, match="at most"):
@@ -107,7 +186,7 @@ def test_numbers_that_yaml_reads_as_text_are_numbers(write_yaml):
 
 def test_defaults_of_points_are_those_of_the_schema():
     assert config.make_point({}) == Point()
-    assert set(schema.properties()) == {"study", "figures", "numerics", *RUN_KEYS}
+    assert set(schema.properties()) == {"study", "figures", "bands", "cases", "numerics", *RUN_KEYS}
 
 
 def test_every_key_is_described():
@@ -117,12 +196,14 @@ def test_every_key_is_described():
         assert "default" in about or key == "study"
 
 
-def test_the_papers_study_has_its_fifteen_runs(root):
+def test_the_papers_study_has_its_fifteen_runs_twice_and_their_companions(root):
     study = config.read_study(root / "config/paper.yaml")
     assert {(p.a_H, p.r) for p in study.points} == {
         (a, r) for a in (1, 2, 10) for r in (0, 0.2, 0.4, 0.6, 0.8)
     }
     assert {(p.a_2, p.delta, p.radius) for p in study.points} == {(0.56, 32, 0.0705)}
+    assert {label for label, _ in study.runs} == {"paper", "resolved"}
+    assert (len(study.runs), len(study.solved)) == (30, 90)
     assert study.figures == tuple(figures.names())
 
 

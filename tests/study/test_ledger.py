@@ -44,6 +44,44 @@ def test_points_file_states_runs_in_order_and_is_left_alone_if_equal(tmp_path):
     assert path.stat().st_mtime_ns == written
 
 
+def test_companions_are_planned_and_listed_apart(tmp_path):
+    axes = {"a_H": [1, 2], "cells": [80, 40]}
+    without = ledger.plan(study(**axes), tmp_path, extend=True)
+    plain = json.loads((tmp_path / "points.json").read_text())
+    with_bands = ledger.plan(study(bands=True, **axes), tmp_path, extend=True)
+    new = set(with_bands.batches) - set(without.batches)
+    added = [p for name in sorted(new) for p in jobs.read_batch(tmp_path / "batches" / f"{name}.json")]
+    assert sorted((p.a_H, p.cells) for p in added) == [(a_H, cells) for a_H in (1, 2) for cells in (10, 20)]
+    index = json.loads((tmp_path / "points.json").read_text())
+    assert index["points"] == plain["points"]
+    assert set(index) - set(plain) == {"companions"}
+    cells = {row["id"]: row["cells"] for row in index["points"]}
+    assert [(cells[row["of"]], row["role"], row["cells"]) for row in index["companions"]] == [
+        (80, "cells/2", 40),
+        (80, "cells/4", 20),
+        (40, "cells/2", 20),
+        (40, "cells/4", 10),
+    ] * 2
+    assert ledger.plan(study(**axes), tmp_path, extend=True) == without
+    assert json.loads((tmp_path / "points.json").read_text()) == plain
+
+
+def test_the_papers_study_is_balanced(root):
+    solved = config.read_study(root / "config/paper.yaml").solved
+    batches = ledger.split(list(solved))
+    costs = [sum(map(ledger.cost, batch)) for batch in batches]
+    assert max(costs) < 1.1 * max(ledger.SECONDS[0], sum(costs) / ledger.PARTS)
+    for cells in (3200, 200):  # what costs most is spread
+        shares = [c for c, b in zip(costs, batches, strict=True) if b[0].cells == cells]
+        assert len(shares) > 1
+        assert max(shares) < 1.3 * min(shares)
+
+
+def test_the_round_column_is_cheap_where_the_model_is_left_open():
+    costs = {m: ledger.cost(Point(model=m, cells=800)) for m in ("auto", "radial", "quarter", "plane")}
+    assert costs["auto"] == costs["radial"] < costs["quarter"] / 100 < costs["plane"] / 100
+
+
 def test_a_job_reads_the_ledger_and_never_extends_it(tmp_path):
     with pytest.raises(ledger.LedgerError, match="main process"):
         ledger.plan(study(a_H=[1]), tmp_path, extend=False)

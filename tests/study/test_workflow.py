@@ -110,6 +110,29 @@ def test_a_wider_grid_computes_only_what_is_new(project):
     assert project.jobs() == {}
 
 
+def test_bands_solve_companions_alone_and_leave_no_trace_when_removed(project):
+    """The study is solved at 20 cells; asked for at 40, it has those runs as companions, and lacks 10 cells alone."""
+    text = STUDY.replace("cells: 20", "cells: 40")
+    project.configure(text)
+    assert project.jobs() == {"batch": 1, "tables": 1, "report": 1}
+    plain = project.runs()
+    records = {path: path.stat().st_mtime_ns for path in project.results.glob("records/*.nc")}
+    project.configure(text + "bands: true\n")
+    assert project.jobs() == {"batch": 1, "tables": 1, "report": 1}
+    assert records.items() <= {p: p.stat().st_mtime_ns for p in project.results.glob("records/*.nc")}.items()
+    assert project.jobs("-n") == {}
+    bands, runs = pd.read_csv(project.results / "tables/bands.csv"), project.runs()
+    assert list(dict.fromkeys(bands["id"])) == runs["id"].tolist() == plain["id"].tolist()
+    final = bands[bands["quantity"] == "L_f_1pc"]
+    assert final["value"].tolist() == runs["L_f_1pc"].tolist()
+    assert final["convergence"].tolist() == runs["L_f_1pc_convergence"].tolist()
+    assert set(pd.read_csv(project.results / "tables/series.csv")["id"]) == set(runs["id"])
+    project.configure(text)
+    assert project.jobs() == {"tables": 1, "report": 1}
+    assert not (project.results / "tables/bands.csv").exists()
+    pd.testing.assert_frame_equal(project.runs(), plain)
+
+
 def test_another_order_or_fewer_points_renew_the_tables_alone(project):
     project.configure(STUDY.replace("a_H: [1, 2]", "a_H: [2.0, 1]"))
     assert project.jobs("-n") == {"tables": 1, "report": 1}

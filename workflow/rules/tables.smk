@@ -2,6 +2,8 @@
 
 SERIES = "series.parquet" if len(STUDY.points) > 1000 else "series.csv"
 TABLES = [RESULTS / "tables" / name for name in ("runs.csv", "timing.csv", SERIES)]
+if STUDY.bands:
+    TABLES.append(RESULTS / "tables/bands.csv")
 
 
 rule tables:

@@ -1,0 +1,141 @@
+"""Bands of a study: what is compared, what a failure does, and that on real runs a finer grid falls inside."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from subslide import bands, config, ledger, records, tables
+from subslide.convergence import CONVERGING, NOT_CONVERGED
+from subslide.jobs import read_batch
+from subslide.results import Results
+
+FINAL = 0.14
+"""m, limit of the made-up deposits, whose error is the cell size."""
+
+
+@pytest.fixture
+def finish(tmp_path):
+    """Function that finishes a study with runs that `make(point)` gives, and returns its results."""
+
+    def finish(make, **axes):
+        study = config.make_study({"study": "t", "model": "radial", "bands": True, "cells": 160, **axes})
+        plan = ledger.plan(study, tmp_path, extend=True)
+        (tmp_path / "records").mkdir(exist_ok=True)
+        for name in plan.batches:
+            points = read_batch(tmp_path / "batches" / f"{name}.json")
+            records.write(tmp_path / "records" / f"{name}.nc", [make(point) for point in points])
+        tables.write(tmp_path)
+        return Results(tmp_path)
+
+    return finish
+
+
+@pytest.fixture
+def first_order(make_run):
+    """Function that makes up a run whose every quantity errs by a part of the cell size."""
+
+    def make(point, **changes):
+        run = make_run(point, steps=round(40 / point.dx**0.5))
+        for name in ("x_front", "max_abs_eta", "max_abs_eta_outside"):
+            setattr(run, name, getattr(run, name) * (1 + 10 * point.dx))
+        run.L_f = FINAL - np.array([1, 0.5, 0.1]) * point.dx
+        vars(run).update(changes)
+        return run
+
+    return make
+
+
+def test_every_quantity_has_its_row_and_the_limit_is_found(finish, first_order):
+    found = finish(first_order, a_H=[1, 2]).bands
+    assert list(found.columns) == list(bands.COLUMNS)
+    once, timed = found[found["time"].isna()], found[found["time"].notna()]
+    assert set(once["quantity"]) == set(bands.ONCE)
+    assert set(timed["quantity"]) == set(bands.QUANTITIES) - set(bands.ONCE)
+    assert set(timed["time"]) == {0.5}  # neither the start nor the end, whose time depends on the grid
+    assert len(found) == 2 * len(bands.QUANTITIES)
+    deposits = found[found["quantity"].str.startswith("L_f")]
+    assert deposits["order"].to_numpy() == pytest.approx(1, abs=1e-6)
+    assert deposits["limit"].to_numpy() == pytest.approx(FINAL, rel=1e-9)
+    assert (deposits["band"] > (deposits["limit"] - deposits["value"]).abs()).all()
+    assert set(deposits["convergence"]) == {CONVERGING}
+
+
+def test_the_table_of_runs_repeats_bands_and_holds_no_companion(finish, first_order):
+    results = finish(first_order, a_H=[1, 2])
+    assert results.runs["cells"].tolist() == [160, 160]
+    assert [row["cells"] for row in results.points] == [160, 160]
+    assert {row["cells"] for row in results.companions} == {80, 40}
+    for name in bands.ONCE:
+        rows = results.bands[results.bands["quantity"] == name]
+        for part in bands.SUMMARY:
+            assert rows[part].tolist() == results.runs[f"{name}_{part}"].tolist()
+
+
+def test_a_companion_that_is_asked_for_is_one_point(finish, first_order):
+    results = finish(first_order, cells=[160, 80])
+    values = results.bands.set_index(["id", "quantity"])
+    fine, coarse = results.runs["id"]
+    assert (
+        values.loc[(fine, "L_f_1pc"), "value_2"].tolist() == values.loc[(coarse, "L_f_1pc"), "value"].tolist()
+    )
+    ids = [row["id"] for row in results.points] + [row["id"] for row in results.companions]
+    assert len(set(ids)) == 4
+
+
+@pytest.mark.parametrize("failing", [160, 80, 40])
+def test_a_grid_that_failed_says_nothing_of_convergence(finish, first_order, failing):
+    def make(point):
+        return first_order(point, **({"status": "left_domain"} if point.cells == failing else {}))
+
+    results = finish(make, a_H=[1])
+    assert set(results.bands["convergence"]) == {NOT_CONVERGED}
+    assert results.bands[["order", "limit", "band"]].isna().all(axis=None)
+    assert results.runs["L_f_1pc_convergence"].tolist() == [NOT_CONVERGED]
+
+
+def test_a_run_that_never_rests_has_bands(finish, first_order):
+    results = finish(lambda point: first_order(point, status="not_at_rest"), a_H=[1])
+    assert results.runs["L_f_1pc_convergence"].tolist() == [CONVERGING]
+
+
+def test_what_a_run_does_not_have_has_no_row(finish, first_order):
+    def make(point):
+        run = first_order(point)
+        run.max_abs_eta = run.max_abs_eta_outside = np.full(len(run.time), np.nan)
+        return run
+
+    results = finish(make, a_H=[1])
+    assert not results.bands["quantity"].str.contains("eta").any()
+    assert results.runs["max_abs_eta_peak_convergence"].isna().all()
+
+
+def test_without_bands_there_is_no_table(finish, first_order):
+    finish(first_order, a_H=[1])
+    results = finish(first_order, a_H=[1], bands=False)
+    assert not (results.folder / "tables/bands.csv").exists()
+    assert list(results.bands.columns) == list(bands.COLUMNS)
+    assert results.bands.empty
+    assert (
+        results.runs[[f"{name}_{part}" for name in bands.ONCE for part in bands.SUMMARY]]
+        .isna()
+        .all(axis=None)
+    )
+
+
+def test_on_real_runs_the_answer_of_a_finer_grid_lies_in_the_band(finish):
+    from subslide.solver import solve
+
+    results = finish(solve, a_H=[1, 10], cells=1600)
+    for row in results.points:
+        finer = solve(config.make_point({"model": "radial", "a_H": row["a_H"], "cells": 3200}))
+        found = results.bands[results.bands["id"] == row["id"]].set_index("quantity")
+        lengths = found.loc[["L_f_1pc", "L_f_3pc", "L_f_5pc"]]
+        assert set(lengths["convergence"]) == {CONVERGING}
+        assert (np.abs(lengths["value"] - finer.L_f) < lengths["band"]).all()
+        assert (lengths["band"] < 0.02 * lengths["value"]).all()  # and it is no empty statement
+
+
+def test_pages_of_columns_name_every_quantity():
+    page = Path(__file__).resolve().parents[2] / "docs/tables.md"
+    assert all(f"- `{name}`" in page.read_text(encoding="utf-8") for name in bands.QUANTITIES)
