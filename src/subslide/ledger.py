@@ -21,7 +21,7 @@ from subslide.points import Point, to_dict
 SECONDS = (2.0, 60.0)
 """Least and greatest estimated cost of a batch: starting a process costs a second; a lost batch at most a minute."""
 
-SECONDS_PER_CELL = {"axial": 2.5e-8, "planar": 6e-8}
+SECONDS_PER_CELL = {"axial": 2.5e-8, "planar": 9e-8}
 """Of one step and order of accuracy, on one core."""
 
 PARTS = 16
