@@ -16,9 +16,9 @@ THRESHOLDS = (0.01, 0.03, 0.05)
 
 
 def scene(
-    dx, layers=2, scheme="ifcph", order=1, r=0.4, friction=1.0, cfl=0.9, own_front=True, speeds="exact"
+    dx, layers=2, scheme="ifcph", order=1, r=0.4, friction=1.0, cfl=0.9, own_front=True, speeds="exact", **law
 ):
-    """Scaled numbers of a run in double precision."""
+    """Scaled numbers of a run in double precision; `law` holds the fields of a friction law beside Coulomb's."""
     real = np.float64
     found = Scene(
         layers=layers,
@@ -32,7 +32,8 @@ def scene(
         own_front=int(own_front),
         speeds=SPEEDS[speeds],
     )
-    return GeneralScene(*found, general=1) if scheme == "roe" or speeds != "exact" else found
+    found = found._replace(**law)
+    return GeneralScene(*found, general=1) if scheme == "roe" or speeds != "exact" or law else found
 
 
 def axial(edges, h1, u1, h2, u2, *, level, radial=False, walls=(True, True), **options):
@@ -57,7 +58,7 @@ def plane(edges, h1, h2, *, level, u1=0.0, v1=0.0, u2=0.0, v2=0.0, walls=(True,)
     return Plane("test", scene(dx, **options), state, grid, walls=walls, level=level, watched=len(edges))
 
 
-def advance(model, stop=math.inf, steps=None):
+def advance(model, stop=math.inf, steps=None, thresholds=THRESHOLDS):
     """Samples of the time loop up to the scaled time `stop`, or of `steps` steps."""
     clock = np.array([0.0, stop if math.isfinite(stop) else 1e9, math.inf, -1.0])
     chunks = []
@@ -65,7 +66,7 @@ def advance(model, stop=math.inf, steps=None):
         size = 513 if steps is None else steps + 1
         samples = np.empty((size, k.COLUMNS))
         counters = np.zeros(2, np.int64)
-        model.advance(THRESHOLDS, clock, samples, counters)
+        model.advance(thresholds, clock, samples, counters)
         chunks.append(samples[: counters[k.SAMPLES]])
         if counters[k.OUTCOME] != k.FULL or steps is not None:
             return np.concatenate(chunks), int(counters[k.OUTCOME])
