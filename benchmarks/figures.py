@@ -3,6 +3,7 @@
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
 from roofline import KERNELS
 from table import verdicts
 
@@ -25,21 +26,21 @@ def roofline(rows):
     dtypes = list(dict.fromkeys(row.dtype for row in rows if row.benchmark == "machine"))
     figure = Figure(figsize=(7.2, 4.0), layout="constrained")
     panels = figure.subplots(1, len(dtypes), sharex=True, sharey=True, squeeze=False)[0]
-    x = np.geomspace(0.5, 20, 200)
+    x = np.geomspace(0.3, 8, 200)
     for ax, dtype in zip(panels, dtypes, strict=True):
         can = {row.quantity: row.value for row in rows if row.benchmark == "machine" and row.dtype == dtype}
         peak = can["multiply_adds"]
         ax.loglog(x, np.minimum(can["bandwidth"] * x, peak), color="black", lw=1.2)
         ax.loglog(x, np.minimum(can["bandwidth"] * x, peak / 2), color="black", lw=0.7, ls=":")
-        ax.annotate(f"multiply-adds: {peak:.0f} Gflop/s", (20, peak), ha="right", va="bottom")
-        ax.annotate(f"one operation at a time: {peak / 2:.0f}", (20, peak / 2), ha="right", va="bottom")
-        ax.annotate(
+        ax.annotate(f"multiply-adds: {peak:.0f} Gflop/s", (8, peak), ha="right", va="bottom")
+        ax.annotate(f"one operation at a time: {peak / 2:.0f}", (8, peak / 2), ha="right", va="bottom")
+        ax.text(
+            0.32,
+            can["bandwidth"] * 0.32 * 1.06,
             f"memory: {can['bandwidth']:.0f} GB/s",
-            (0.55, can["bandwidth"] * 0.55),
             rotation=45,
             rotation_mode="anchor",
             transform_rotates_text=True,
-            va="bottom",
         )
         for kernel in KERNELS:
             values = {
@@ -51,6 +52,10 @@ def roofline(rows):
                 at = values["flops_per_byte"]
                 ax.plot(at, values["flop_rate"], MARKERS[kernel], color=COLOURS[kernel], label=kernel, ms=6)
                 ax.plot(at, values["ceiling"], "_", color=COLOURS[kernel], ms=14, mew=1.6)
+        for axis in (ax.xaxis, ax.yaxis):
+            axis.set_major_locator(LogLocator(10, (1, 2, 5)))
+            axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+            axis.set_minor_locator(NullLocator())
         ax.set_title(f"{dtype}, one core")
         ax.set_xlabel("operations a byte from memory (flop/B)")
     panels[0].set_ylabel("operations a second (Gflop/s)")
@@ -80,15 +85,15 @@ def bars(rows):
         ax.plot([criterion.target] * 2, [place - 0.42, place + 0.42], color="black", lw=1.6)
         ax.annotate(
             f"{value.median:.2f}",
-            (max(value.high, criterion.target), place),
+            (0, place),
             (4, 0),
             textcoords="offset points",
             va="center",
+            color="white",
+            fontweight="bold",
         )
-    ax.set_yticks(range(len(found)), [criterion.text for criterion, _ in found])
+    ax.set_yticks(range(len(found)), [criterion.text.replace(": ", ":\n") for criterion, _ in found])
     ax.invert_yaxis()
     ax.set_xlim(left=0)
-    ax.set_xlabel(
-        "ratio: median, lowest and highest; the black line is the target (blue: reached, ochre: missed)"
-    )
+    ax.set_xlabel("ratio: median, lowest and highest; black: the target (bar blue: reached)")
     return figure

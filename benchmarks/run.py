@@ -26,7 +26,6 @@ def main(arguments=None):
         "-o", "--output", default="results/bench", metavar="FOLDER", help="default: %(default)s"
     )
     options = parser.parse_args(arguments)
-    os.environ["NUMBA_NUM_THREADS"] = "1"  # numba reads it once; the two threads have a process of their own
     with tempfile.TemporaryDirectory(prefix="subslide-bench-", ignore_cleanup_errors=True) as cache:
         if "compile" in options.only and not options.quick and not options.list:
             os.environ["NUMBA_CACHE_DIR"] = (
@@ -129,4 +128,7 @@ def draw(folder, rows):
 
 
 if __name__ == "__main__":
+    os.environ["NUMBA_NUM_THREADS"] = (
+        "1"  # before numba is loaded; two threads are measured in a process of their own
+    )
     sys.exit(main())
