@@ -9,6 +9,8 @@ from table import verdicts
 
 RC = {"font.size": 8, "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False}
 COLOURS = dict(zip(KERNELS, mpl.colormaps["viridis"](np.linspace(0, 0.85, len(KERNELS))), strict=True))
+NEAR, FAR = 0.3, 20
+"""Ends of the roofline's axis (flop/B)."""
 MARKERS = dict(zip(KERNELS, "os^D", strict=True))
 
 
@@ -26,19 +28,19 @@ def roofline(rows):
     dtypes = list(dict.fromkeys(row.dtype for row in rows if row.benchmark == "machine"))
     figure = Figure(figsize=(7.2, 4.0), layout="constrained")
     panels = figure.subplots(1, len(dtypes), sharex=True, sharey=True, squeeze=False)[0]
-    x = np.geomspace(0.3, 8, 200)
+    x = np.geomspace(NEAR, FAR, 200)
     for ax, dtype in zip(panels, dtypes, strict=True):
         can = {row.quantity: row.value for row in rows if row.benchmark == "machine" and row.dtype == dtype}
         peak = can["multiply_adds"]
         ax.loglog(x, np.minimum(can["bandwidth"] * x, peak), color="black", lw=1.2)
         ax.loglog(x, np.minimum(can["bandwidth"] * x, peak / 2), color="black", lw=0.7, ls=":")
-        ax.annotate(f"multiply-adds: {peak:.0f} Gflop/s", (8, peak), ha="right", va="bottom")
-        ax.annotate(f"one operation at a time: {peak / 2:.0f}", (8, peak / 2), ha="right", va="bottom")
+        ax.annotate(f"multiply-adds: {peak:.0f} Gflop/s", (FAR, peak), ha="right", va="bottom")
+        ax.annotate(f"single operations: {peak / 2:.0f}", (FAR, peak / 2), ha="right", va="bottom")
         ax.text(
-            0.32,
-            can["bandwidth"] * 0.32 * 1.06,
+            NEAR * 1.1,
+            can["bandwidth"] * NEAR * 1.25,
             f"memory: {can['bandwidth']:.0f} GB/s",
-            rotation=45,
+            rotation=np.degrees(np.arctan(can["bandwidth"])),  # the line's, before the logarithms
             rotation_mode="anchor",
             transform_rotates_text=True,
         )
@@ -51,7 +53,9 @@ def roofline(rows):
             if values:
                 at = values["flops_per_byte"]
                 ax.plot(at, values["flop_rate"], MARKERS[kernel], color=COLOURS[kernel], label=kernel, ms=6)
-                ax.plot(at, values["ceiling"], "_", color=COLOURS[kernel], ms=14, mew=1.6)
+                roof = min(can["bandwidth"] * at, peak)
+                if values["ceiling"] < roof:
+                    ax.plot(at, values["ceiling"], "_", color=COLOURS[kernel], ms=14, mew=1.6)
         for axis in (ax.xaxis, ax.yaxis):
             axis.set_major_locator(LogLocator(10, (1, 2, 5)))
             axis.set_major_formatter(StrMethodFormatter("{x:g}"))

@@ -64,6 +64,8 @@ def bench(options):
                 failed.append(f"{name}: {error}")
             table.write(folder / "bench.csv", rows)
             print(f"  {name}: {time.perf_counter() - before:.0f} s", flush=True)
+    about["load_at_end"] = round(os.getloadavg()[0], 2)  # above 1, others took part of what was measured
+    (folder / "machine.json").write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8")
     draw(folder, rows)
     print(f"\n{table.criteria_text(rows)}\n")
     print(f"{folder}/bench.csv: {len(rows)} rows in {time.perf_counter() - started:.0f} s")
