@@ -81,13 +81,12 @@ def traced(kind, shape, prefix, reads, writes, fill):
 
 
 def scene(order):
-    """Return the scaled numbers of a run, all that matter counting."""
-    from subslide.kernels.arrays import Scene
-    from subslide.kernels.viscosity import SCHEMES
+    """Return the scaled numbers of the paper's column, those that are not flags counting."""
+    from subslide.models.build import build
+    from subslide.points import Point
 
-    known = {"layers": 2, "scheme": SCHEMES["ifcph"], "order": order}
-    known |= {"r": 0.4, "friction": 1.1, "dx": 0.02, "cfl": 0.9, "dry_depth": 1e-6}
-    return Scene(**{k: v if isinstance(v, int) else Number(v) for k, v in known.items()})
+    found = build(Point(model="radial", order=order), "radial", 100, 100, 1e-6).scene
+    return type(found)(*(Number(value) if isinstance(value, float) else value for value in found))
 
 
 def edge_counts():

@@ -22,9 +22,18 @@ static inline REAL roe_velocity(REAL root_i, REAL u_i, REAL root_j, REAL u_j)
     return (root_i * u_i + root_j * u_j) / (weight > 0 ? weight : (REAL)1);
 }
 
+/* HLL: the line through (s_l, |s_l|) and (s_r, |s_r|). */
+static inline void hll(REAL s_l, REAL s_r, REAL *a0, REAL *a1)
+{
+    REAL width = s_r - s_l;
+    REAL scale = 1 / (width > 0 ? width : (REAL)1);
+    *a0 = (s_r * fabs(s_l) - s_l * fabs(s_r)) * scale;
+    *a1 = (fabs(s_r) - fabs(s_l)) * scale;
+}
+
 /* in: h1 u1 h2 u2 at i, the same at j, lower and upper bound of the speeds in both cells, jump of h1 + h2, stuck (0 or
-   1). out: f1 m1 p1 f2 m2 p2. Each an array of n. */
-void edge_fluxes(long n, REAL r, REAL dry_depth, const REAL *const *in, REAL *const *out)
+   1). out: f1 m1 p1 f2 m2 p2. Each an array of n. own_front: grains have speeds of their own at a dry edge. */
+void edge_fluxes(long n, REAL r, REAL dry_depth, int own_front, const REAL *const *in, REAL *const *out)
 {
     const REAL *restrict h1_in = in[0], *restrict u1_in = in[1], *restrict h2_in = in[2], *restrict u2_in = in[3];
     const REAL *restrict h1_jn = in[4], *restrict u1_jn = in[5], *restrict h2_jn = in[6], *restrict u2_jn = in[7];
@@ -32,7 +41,7 @@ void edge_fluxes(long n, REAL r, REAL dry_depth, const REAL *const *in, REAL *co
     REAL *restrict f1 = out[0], *restrict m1 = out[1], *restrict p1 = out[2];
     REAL *restrict f2 = out[3], *restrict m2 = out[4], *restrict p2 = out[5];
     const REAL half = (REAL)0.5, one = 1, zero = 0;
-    const REAL stretch = sqrt(one + sqrt(r));
+    const REAL stretch = sqrt(one + sqrt(r)), reduced = sqrt(one - r);
 
 #pragma omp simd
     for (long e = 0; e < n; e++) {
@@ -44,7 +53,8 @@ void edge_fluxes(long n, REAL r, REAL dry_depth, const REAL *const *in, REAL *co
         /* Roe means */
         REAL h1 = half * (h1_i + h1_j), h2 = half * (h2_i + h2_j);
         REAL u1 = roe_velocity(sqrt(h1_i), u1_i, sqrt(h1_j), u1_j);
-        REAL u2 = roe_velocity(sqrt(h2_i), u2_i, sqrt(h2_j), u2_j);
+        REAL root_i = sqrt(h2_i), root_j = sqrt(h2_j);
+        REAL u2 = roe_velocity(root_i, u2_i, root_j, u2_j);
         REAL q1_i = h1_i * u1_i, q1_j = h1_j * u1_j, q2_i = h2_i * u2_i, q2_j = h2_j * u2_j;
         REAL d_h2 = h2_j - h2_i, d_h1 = d_eta - d_h2, d_q1 = q1_j - q1_i, d_q2 = q2_j - q2_i;
 
@@ -82,12 +92,23 @@ void edge_fluxes(long n, REAL r, REAL dry_depth, const REAL *const *in, REAL *co
         i0 = one_sided ? zero : i0;
         i1 = one_sided ? (s_l >= 0 ? one : -one) : i1;
         i2 = one_sided ? zero : i2;
-        REAL width = s_r - s_l;
-        REAL scale = one / (width > 0 ? width : one);
+        REAL d0, d1;
+        hll(s_l, s_r, &d0, &d1);
         int dry = least(least(h1_i, h1_j), least(h2_i, h2_j)) <= dry_depth;
-        REAL a0 = dry ? (s_r * fabs(s_l) - s_l * fabs(s_r)) * scale : i0;
-        REAL a1 = dry ? (fabs(s_r) - fabs(s_l)) * scale : i1;
+        REAL a0 = dry ? d0 : i0;
+        REAL a1 = dry ? d1 : i1;
         REAL a2 = dry ? zero : i2;
+
+        /* the grains' own HLL where they end */
+        REAL c_i = reduced * root_i, c_j = reduced * root_j, c_m = reduced * c2;
+        REAL o0, o1;
+        REAL o_l = h2_i <= dry_depth ? u2_j - 2 * c_j : least(u2 - c_m, u2_i - c_i);
+        REAL o_r = h2_j <= dry_depth ? u2_i + 2 * c_i : most(u2 + c_m, u2_j + c_j);
+        hll(o_l, o_r, &o0, &o1);
+        int front = own_front && least(h2_i, h2_j) <= dry_depth;
+        o0 = front ? o0 : a0;
+        o1 = front ? o1 : a1;
+        REAL o2 = front ? zero : a2;
 
         /* viscosity: two products with the Roe matrix */
         REAL e1 = stuck ? d_eta : d_h1, e3 = stuck ? zero : d_h2;
@@ -97,11 +118,11 @@ void edge_fluxes(long n, REAL r, REAL dry_depth, const REAL *const *in, REAL *co
         REAL g2 = k1 * d_q1 + 2 * u1 * b2 + h1 * d_q2;
         REAL g4 = r * h2 * d_q1 + k2 * d_q2 + 2 * u2 * b4;
 
-        REAL through = half * (q2_i + q2_j - (a0 * e3 + a1 * d_q2 + a2 * b4));
+        REAL through = half * (q2_i + q2_j - (o0 * e3 + o1 * d_q2 + o2 * b4));
         f1[e] = half * (q1_i + q1_j - (a0 * e1 + a1 * d_q1 + a2 * b2));
         m1[e] = half * (q1_i * u1_i + q1_j * u1_j - (a0 * d_q1 + a1 * b2 + a2 * g2));
         f2[e] = stuck ? zero : through;
-        m2[e] = half * (q2_i * u2_i + q2_j * u2_j - (a0 * d_q2 + a1 * b4 + a2 * g4));
+        m2[e] = half * (q2_i * u2_i + q2_j * u2_j - (o0 * d_q2 + o1 * b4 + o2 * g4));
         p1[e] = h1 * d_eta;
         p2[e] = h2 * (r * d_h1 + d_h2);
     }

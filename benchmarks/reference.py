@@ -114,13 +114,20 @@ def c_reference(edges, out):
     dtype = edges.stuck.dtype.name
     real, address = CTYPES[dtype], ctypes.POINTER(CTYPES[dtype])
     function = library("reference.c", dtype).edge_fluxes
-    function.argtypes = [ctypes.c_long, real, real, ctypes.POINTER(address), ctypes.POINTER(address)]
+    function.argtypes = [
+        ctypes.c_long,
+        real,
+        real,
+        ctypes.c_int,
+        ctypes.POINTER(address),
+        ctypes.POINTER(address),
+    ]
     function.restype = None
     inputs = (address * len(edges))(*(pointer(array, dtype) for array in edges))
     outputs = (address * len(out))(*(pointer(array, dtype) for array in out))
 
     def fill(edges=edges, out=out):  # holds the arrays
-        function(len(edges.stuck), scene.r, scene.dry_depth, inputs, outputs)
+        function(len(edges.stuck), scene.r, scene.dry_depth, scene.own_front, inputs, outputs)
 
     return fill
 
