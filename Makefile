@@ -26,6 +26,10 @@ test: $(READY)  ## set up, then lint, format and every test
 	$(BIN)/subslide warm radial:1:float64 quarter:1:float64 plane:1:float64 one-layer:1:float64
 	$(BIN)/python -m pytest -n auto --dist loadgroup
 
+.PHONY: bench
+bench: $(READY)  ## measure speed beside a C reference, cost growth, start-up; tables and figures in results/bench
+	$(BIN)/python benchmarks/run.py
+
 setup: $(READY)  ## set up alone: .venv with the locked packages and this one
 
 $(READY): requirements.lock pyproject.toml

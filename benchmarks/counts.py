@@ -1,0 +1,205 @@
+"""Floating-point operations and memory traffic of the plane's step, counted by running the kernels as plain Python.
+
+Numbers that count replace floats, and arrays that note who reads and writes them replace arrays, so the counts follow
+the kernels when these change. Counted are +, -, *, /, and square roots, one each; not counted are min, max, abs,
+comparisons, choices and changes of sign. Both branches of a conditional expression cost time but one is counted.
+Run as a program, which prints JSON, because numba has to be told before it is imported that it shall not compile.
+"""
+
+import json
+import math
+import os
+import subprocess
+import sys
+from collections import Counter
+from types import SimpleNamespace
+
+CHEAP, DIVISION, ROOT = "add_multiply", "division", "square_root"
+counted = Counter()
+
+
+class Number(float):
+    """A float whose arithmetic is counted, and gives counting floats."""
+
+
+def counting(name, kind):
+    plain = getattr(float, name)
+
+    def method(self, *others):
+        counted[kind] += 1
+        return Number(plain(self, *others))
+
+    setattr(Number, name, method)
+
+
+for name in ("__add__", "__radd__", "__sub__", "__rsub__", "__mul__", "__rmul__"):
+    counting(name, CHEAP)
+for name in ("__truediv__", "__rtruediv__"):
+    counting(name, DIVISION)
+Number.__abs__ = lambda self: Number(float.__abs__(self))
+Number.__neg__ = lambda self: Number(float.__neg__(self))
+
+
+def root(x):
+    """Return the square root, counted."""
+    counted[ROOT] += 1
+    return Number(math.sqrt(x))
+
+
+COUNTING_MATH = SimpleNamespace(
+    sqrt=root,
+    copysign=lambda x, y: Number(math.copysign(x, y)),
+    isfinite=math.isfinite,
+    tan=math.tan,
+    exp=math.exp,
+)
+
+
+class Traced:
+    """An array that notes under its name that it was read or written."""
+
+    def __init__(self, values, name, reads, writes):
+        self.values, self.name, self.reads, self.writes = values, name, reads, writes
+        self.shape = values.shape
+
+    def __getitem__(self, index):
+        self.reads.add(self.name)
+        return Number(self.values[index])
+
+    def __setitem__(self, index, value):
+        self.writes.add(self.name)
+        self.values[index] = value
+
+
+def traced(kind, shape, prefix, reads, writes, fill):
+    """Return a named tuple of `Traced` arrays of that shape, each cell `fill(field)`."""
+    import numpy as np
+
+    return kind(
+        *(Traced(np.full(shape, fill(field)), f"{prefix}.{field}", reads, writes) for field in kind._fields)
+    )
+
+
+def scene(order):
+    """Return the scaled numbers of the paper's column, those that are not flags counting."""
+    from subslide.models.build import build
+    from subslide.points import Point
+
+    found = build(Point(model="radial", order=order), "radial", 100, 100, 1e-6).scene
+    return type(found)(*(Number(value) if isinstance(value, float) else value for value in found))
+
+
+def edge_counts():
+    """Return the operations of one wet edge."""
+    from subslide.kernels.edge import edge_fluxes
+
+    w_i = [Number(x) for x in (1.2, 0.1, 0.7, 0.3)]
+    w_j = [Number(x) for x in (1.3, -0.2, 0.5, 0.1)]
+    bounds = Number(-1.6), Number(1.7)
+    counted.clear()
+    edge_fluxes(scene(1), False, *bounds, *w_i, *w_j, Number(-0.1))
+    return dict(counted)
+
+
+def step_counts(order, n=6):
+    """Return for each part of the plane's step its operations a cell, and the arrays it reads and writes.
+
+    States at faces are not among the arrays: rows are worked on in blocks so that these stay in a core's cache.
+    """
+    from subslide.kernels import planar
+    from subslide.kernels.arrays import GHOSTS, Cells, Fluxes, Marks, Side
+
+    reads, writes = set(), set()
+    values = {
+        "h1": 1.2,
+        "h2": 0.7,
+        "eta": 1.9,
+        "slow_x": -1.4,
+        "slow_y": -1.4,
+        "fast_x": 1.5,
+        "fast_y": 1.5,
+        "keep1": 1,
+        "keep2": 1,
+    }
+
+    def arrays(kind, shape, prefix):
+        return traced(kind, shape, prefix, reads, writes, lambda field: values.get(field, 0.1))
+
+    padded = (n + 2 * GHOSTS,) * 2
+    s = scene(order)
+    c, mk = arrays(Cells, padded, "cell"), arrays(Marks, padded, "mark")
+    left, right, lower, upper = (arrays(Side, (2, padded[1]), "cache") for _ in range(4))
+    fx, fy = arrays(Fluxes, (n, n + 1), "x"), arrays(Fluxes, (n + 1, n), "y")
+    dt, j, row = Number(0.01), n // 2, n // 2 + GHOSTS
+    both = left, right, lower, upper
+    faces = (
+        (lambda: planar.constant_faces(c, row, *both, 0, 0))
+        if order == 1
+        else (lambda: planar.faces(s, c, mk, row, *both, 0, 0, dt))
+    )
+    parts = {
+        "survey": (lambda: planar.cell_speeds(s, c, row), padded[1]),
+        "fluxes": (
+            lambda: (
+                faces(),
+                planar.fill_stuck(s, c, j, fx.stuck, GHOSTS, GHOSTS - 1, 0, 1, dt),
+                planar.edges_x(s, c, j, left, right, 0, fx),
+                planar.fill_stuck(s, c, j, fy.stuck, GHOSTS - 1, GHOSTS, 1, 0, dt),
+                planar.edges_y(s, c, j, lower, upper, 0, 0, fy),
+            ),
+            n + 1,
+        ),
+        "marks": (lambda: planar.marks(s, c, fx, fy, mk, j, dt), n),
+        "update": (lambda: planar.update(s, c, fx, fy, mk, j, dt), n),
+    }
+    found = {}
+    for name, (work, cells) in parts.items():
+        reads.clear(), writes.clear(), counted.clear()
+        work()
+        streams = {
+            name: sorted(x for x in group if not x.startswith("cache"))
+            for name, group in (("reads", reads), ("writes", writes))
+        }
+        found[name] = {"operations": {kind: count / cells for kind, count in counted.items()}, **streams}
+    return found
+
+
+def numbers_moved(part):
+    """Return how many numbers a cell come from or go to memory: written lines are read first."""
+    return len(set(part["reads"]) | set(part["writes"])) + len(part["writes"])
+
+
+def count():
+    """Return {"edge": operations, "plane": {order: {"operations": a cell, "numbers": a cell, "parts": ...}}}."""
+    done = subprocess.run(
+        [sys.executable, __file__],
+        env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if done.returncode:
+        raise ValueError(f"counting operations failed: {done.stderr.strip().splitlines()[-1:]}")
+    found = json.loads(done.stdout)
+    for order, parts in found["plane"].items():
+        total = sum((Counter(part["operations"]) for part in parts.values()), Counter())
+        found["plane"][order] = {
+            "operations": dict(total),
+            "numbers": sum(numbers_moved(part) for part in parts.values()),
+            "parts": parts,
+        }
+    return found
+
+
+def main():
+    """Nothing; the counts are printed."""
+    import subslide.kernels.planar  # noqa: F401
+
+    for name, module in list(sys.modules.items()):
+        if name.startswith("subslide.kernels") and hasattr(module, "math"):
+            module.math = COUNTING_MATH
+    print(json.dumps({"edge": edge_counts(), "plane": {order: step_counts(order) for order in (1, 2)}}))
+
+
+if __name__ == "__main__":
+    main()
