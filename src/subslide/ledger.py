@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from subslide.atomic import write_json
-from subslide.config import Study
+from subslide.config import Study, solved_model
 from subslide.jobs import file_hash
 from subslide.points import Point, to_dict
 
@@ -93,7 +93,7 @@ def split(points: list[Point]) -> list[list[Point]]:
 
 def kernels_of(point: Point) -> str:
     """Name of the compiled code that a point needs: 'model:order:dtype'."""
-    return f"{point.model}:{point.order}:{point.dtype}"
+    return f"{solved_model(point)}:{point.order}:{point.dtype}"
 
 
 def cost(point: Point) -> float:
@@ -101,7 +101,7 @@ def cost(point: Point) -> float:
     across = point.cells * 0.6
     paper_seconds = 0.6 * math.sqrt(point.radius / 0.0705)
     steps = 2.4 * across * (point.t_end or paper_seconds) / paper_seconds / point.cfl
-    cells = {"quarter": across**2, "plane": 4 * across**2}.get(point.model, across)
+    cells = {"quarter": across**2, "plane": 4 * across**2}.get(solved_model(point), across)
     return 0.005 + 4e-8 * cells * steps * point.order
 
 
