@@ -7,7 +7,8 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from subslide import figures, schema
+from subslide import figures, scenes, schema
+from subslide.models import choice
 from subslide.points import RUN_KEYS, Point, from_dict
 from subslide.schema import ConfigError
 
@@ -125,17 +126,30 @@ def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
                 raise ConfigError(f"{key}: {schema.show(value)} has {len(value)} values; a run takes one")
             value = value[0]
         single[key] = schema.checked(key, value, names.get(key, key))
-    return resolve(single)[1]
+    return resolve(single, names)[1]
 
 
-def resolve(values: dict) -> tuple[str, Point]:
-    """Label of the numerics, and the point, of checked single values by key."""
+def resolve(values: dict, names: dict[str, str] | None = None) -> tuple[str, Point]:
+    """Label of the numerics, and the point, of checked single values by key; scene options are checked here."""
     values = dict(values)
+    name = (names or {}).get("scene_options", "scene_options")
+    values["scene_options"] = _options(
+        values.get("scene", Point.scene), values.get("scene_options", {}), name
+    )
     label = values.pop("numerics", schema.properties()["numerics"]["default"])
     point = from_dict({**schema.properties()["numerics"]["presets"][label], **values})
-    plane = point.model in ("quarter", "plane")
     if point.model == "one-layer" and point.r != 0:
         raise ConfigError(f"model: one-layer is not allowed with r: {point.r:g}; allowed: only with r: 0")
+    try:
+        scenes.check(point)
+    except scenes.SceneError as error:
+        raise ConfigError(str(error)) from None
+    if point.model not in ("auto", *choice.exact_models(point)):
+        raise ConfigError(
+            f"model: {point.model} is not allowed with scene: {point.scene}, a"
+            f" {choice.WORDS[scenes.symmetry(point)]}; allowed: auto, {', '.join(choice.exact_models(point))}"
+        )
+    plane = choice.resolve_model(point) in ("quarter", "plane")
     if point.fields and not plane:
         raise ConfigError(f"fields: true is not allowed with model: {point.model}; allowed: quarter, plane")
     if plane and point.cells > MOST_PLANE_CELLS:
@@ -143,6 +157,50 @@ def resolve(values: dict) -> tuple[str, Point]:
             f"cells: {point.cells} is not allowed in the plane; allowed: at most {MOST_PLANE_CELLS}"
         )
     return label, point
+
+
+def solved_model(point: Point) -> str:
+    """Model that a point is solved with: its own, or what `auto` chooses."""
+    return choice.resolve_model(point)
+
+
+def _options(scene: str, given: dict, name: str) -> dict:
+    """Every option of a scene by name, checked, in one number format; `name` is the key's name in messages."""
+    module = scenes.load(scene)
+    for option, value in given.items():
+        if option not in module.OPTIONS:
+            hint = schema.closest(option, module.OPTIONS)
+            known = "" if hint else f"; allowed: {', '.join(module.OPTIONS) or 'none'}"
+            raise ConfigError(
+                f"{name}: {schema.show(option)}: the scene {scene} has no such option"
+                f" (its value: {schema.show(value)}){hint}{known}"
+            )
+    found = {}
+    for option, about in module.OPTIONS.items():
+        if option not in given and "default" not in about:
+            raise ConfigError(
+                f"{name}: {option}: the scene {scene} needs this option; allowed: {schema.range_of(about)}"
+            )
+        value = schema.conform(about, given.get(option, about.get("default")), f"{name}: {option}")
+        found[option] = float(value) + 0.0 if about.get("type") == "number" else value
+    try:
+        return module.complete(found) if hasattr(module, "complete") else found
+    except scenes.SceneError as error:
+        raise ConfigError(f"{name}: {error}") from None
+
+
+def _option_axis(given: dict) -> list[dict]:
+    """Mappings with one value for each option: the product of those that have a list."""
+    lists = {}
+    for option, value in given.items():
+        lists[option] = value if isinstance(value, list) else [value]
+        if not lists[option]:
+            raise ConfigError(
+                f"scene_options: {option}: [] makes an empty grid; allowed: a value or a list of at least one"
+            )
+    if math.prod(map(len, lists.values())) > MOST_POINTS:
+        raise ConfigError(f"scene_options: too many combinations; allowed: at most {MOST_POINTS}")
+    return [dict(zip(lists, values, strict=True)) for values in itertools.product(*lists.values())]
 
 
 def _grids(values: dict) -> list[tuple[str, dict[str, list]]]:
@@ -209,6 +267,8 @@ def _check_keys(values: dict, known: Collection[str] | None = None) -> None:
 
 def _axis(key: str, value) -> list:
     """Values of one key along its axis, checked, without repeats."""
+    if key == "scene_options":
+        return _option_axis(schema.checked(key, value))
     if not (schema.is_axis(key) and isinstance(value, list)):
         return [schema.checked(key, value)]
     if not value:

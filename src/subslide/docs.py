@@ -1,12 +1,12 @@
 """Pages of documentation that follow from the code, so that each fact has one place."""
 
-from subslide import bands, convergence, fields, schema, tables
+from subslide import bands, convergence, fields, scenes, schema, tables
 
 CONFIG_PAGE, TABLES_PAGE = "config/README.md", "docs/tables.md"
 
 CONFIG_TEXT = """# Studies
 
-<!-- written by `make docs` from src/subslide/config.schema.json -->
+<!-- written by `make docs` from src/subslide/config.schema.json and src/subslide/scenes -->
 
 One YAML file is one study. Run it with
 
@@ -49,6 +49,24 @@ asked for stay there unused. A change of the package's code computes everything 
 
 """
 
+SCENES_TEXT = """
+## Scenes
+
+`scene` names the initial state, and `scene_options` its options, each an axis if it has a list:
+
+```yaml
+scene: ellipse
+scene_options:
+  elongation: [1, 1.5, 2]
+  angle: 30
+```
+
+On the command line: `--scene ellipse --scene-options elongation=2,angle=30`. Lengths are in units of R, depths of H2 and
+speeds of sqrt(g H2). With `model: auto` a scene is solved in the cheapest geometry that gives its answer, and a model
+that cannot give it is refused; a record and the line of `subslide run` say which one was chosen and why.
+
+"""
+
 TABLES_TEXT = """# Tables
 
 <!-- written by `make docs` from src/subslide/tables.py -->
@@ -61,7 +79,10 @@ does not have. Runs that failed are rows too: see `status`.
 
 def pages() -> dict[str, str]:
     """Text of each generated page, by its path from the root of the repository."""
-    return {CONFIG_PAGE: CONFIG_TEXT + keys() + presets(), TABLES_PAGE: TABLES_TEXT + columns()}
+    return {
+        CONFIG_PAGE: CONFIG_TEXT + keys() + presets() + all_scenes(),
+        TABLES_PAGE: TABLES_TEXT + columns(),
+    }
 
 
 def keys() -> str:
@@ -84,6 +105,29 @@ def presets() -> str:
         )
         lines.append(f"- `{name}` sets {text}")
     return "\n".join(lines) + "\n"
+
+
+def all_scenes() -> str:
+    """Sections (Markdown) on each scene and its options."""
+    return SCENES_TEXT + "\n".join(_scene(name) for name in scenes.NAMES)
+
+
+def _scene(name: str) -> str:
+    module = scenes.load(name)
+    lines = [f"### {name}", "", module.__doc__.strip().replace("\n", " ").replace("  ", "\n\n"), ""]
+    if module.OPTIONS:
+        lines += ["| option | meaning | unit | default | allowed |", "|---|---|---|---|---|"]
+    for option, about in module.OPTIONS.items():
+        default = schema.show(about["default"]) if "default" in about else "needed"
+        entries = (
+            f"`{option}`",
+            about["description"],
+            schema.unit_of(about),
+            default,
+            schema.range_of(about),
+        )
+        lines.append("| " + " | ".join(entries) + " |")
+    return "\n".join(lines) + ("\n" if module.OPTIONS else "")
 
 
 def columns() -> str:

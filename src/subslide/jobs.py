@@ -10,8 +10,9 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from subslide import config, schema
+from subslide import config, scenes, schema
 from subslide.atomic import write_text
+from subslide.models.choice import model_reason
 from subslide.points import Point, from_dict
 from subslide.schema import ConfigError
 
@@ -21,7 +22,7 @@ def point_of(path: str | None, options: dict[str, str]) -> Point:
     values = config.read_yaml(path) if path else {}
     names = {key: f"{path}: {key}" for key in values}
     for key, text in options.items():
-        values[key] = _value_of_text(text)
+        values[key] = _options_of_text(text) if key == "scene_options" else _value_of_text(text)
         names[key] = "--" + key.replace("_", "-")
     if isinstance(values.get("snapshot_times"), int | float):
         values["snapshot_times"] = [values["snapshot_times"]]
@@ -87,6 +88,10 @@ def read_batch(spec: str) -> list[Point]:
     for name, point in points.items():
         if point.id != name:
             raise ConfigError(f"{spec}: the values of {name} belong to {point.id}; was the file edited?")
+        try:
+            scenes.check(point)
+        except scenes.SceneError as error:
+            raise ConfigError(f"{spec}: {name}: {error}") from None
     return list(points.values())
 
 
@@ -95,7 +100,8 @@ def warm(kernels: tuple[str, ...]) -> Iterator[str]:
     for kernel in kernels:
         parts = dict(zip(("model", "order", "dtype"), kernel.split(":"), strict=False))
         values = {key: schema.checked(key, _value_of_text(text)) for key, text in parts.items()}
-        point = config.make_point({"r": 0, "cells": 20, "t_end": 0.01, **values})
+        scene = {"scene": "dam_break", "boundary": "wall"} if values["model"] == "line" else {}
+        point = config.make_point({"r": 0, "cells": 20, "t_end": 0.01, **scene, **values})
         from subslide import solver
 
         solver.solve(point)
@@ -122,7 +128,9 @@ def summary(result) -> str:
         parts.append(f"peak max|η| = {np.nanmax(result.max_abs_eta):.4g} m")
     if np.isfinite(result.time_at_rest):
         parts.append(f"at rest at {result.time_at_rest:.4g} s")
-    parts.append(f"{result.model}, {result.steps} steps in {result.wall_seconds:.3g} s")
+    parts.append(
+        f"{result.model} ({model_reason(result.point)}), {result.steps} steps in {result.wall_seconds:.3g} s"
+    )
     return ", ".join(parts)
 
 
@@ -138,6 +146,21 @@ def _value_of_text(text):
         except ValueError:
             continue
     return text
+
+
+def _options_of_text(text: str) -> dict:
+    """Values by name of text such as 'elongation=2,angle=30'."""
+    found = {}
+    for part in filter(None, text.split(",")):
+        name, sign, value = (piece.strip() for piece in part.partition("="))
+        if not (name and sign and value):
+            raise ConfigError(
+                f"--scene-options: {schema.show(part)} is not allowed; allowed: NAME=VALUE, several parted by commas"
+            )
+        if name in found:
+            raise ConfigError(f"--scene-options: {name} is given twice; allowed: each option once")
+        found[name] = _value_of_text(value)
+    return found
 
 
 def _progress():

@@ -8,6 +8,7 @@ import numpy as np
 
 import subslide
 from subslide import fields, points, schema
+from subslide.models.choice import model_reason
 
 
 class Variable(NamedTuple):
@@ -22,6 +23,7 @@ PROVENANCE = (
     "scheme",
     "order",
     "model",
+    "model_reason",
     "cells",
     "dtype",
     "status",
@@ -46,11 +48,15 @@ def variables(runs: list) -> dict[str, Variable]:
     found["x"].attrs["axis"] = "X"
     found["id"] = Variable(("run",), _text([run.point.id for run in runs]), {"long_name": "name of the run"})
     for key in points.RUN_KEYS:
-        if key not in ("model", "snapshot_times", "fields"):
+        if key not in ("scene_options", "model", "snapshot_times", "fields"):
             found[key] = _parameter(key, [getattr(run.point, key) for run in runs])
-    found["model"] = Variable(
-        ("run",), _text([run.model for run in runs]), {"long_name": "geometry that was solved"}
-    )
+    about = schema.properties()["scene_options"]["description"]
+    for name, text, values in (
+        ("scene_options", f"{about} (JSON)", [points.options_text(run.point) for run in runs]),
+        ("model", "geometry that was solved", [run.model for run in runs]),
+        ("model_reason", "why that geometry was solved", [model_reason(run.point) for run in runs]),
+    ):
+        found[name] = Variable(("run",), _text(values), {"long_name": text})
     found["dx"] = Variable(("run",), _column(runs, "dx"), {"units": "m", "long_name": "cell size"})
     for name in ("status", "status_detail"):
         text = {"status": "how the run ended", "status_detail": "what ended the run, in words"}[name]

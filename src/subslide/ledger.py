@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from subslide.atomic import write_json
-from subslide.config import Study
+from subslide.config import Study, solved_model
 from subslide.jobs import file_hash
 from subslide.points import Point, to_dict
 
@@ -113,18 +113,17 @@ def split(points: list[Point]) -> list[list[Point]]:
 
 def kernels_of(point: Point) -> str:
     """Name of the compiled code that a point needs: 'model:order:dtype'."""
-    return f"{point.model}:{point.order}:{point.dtype}"
+    return f"{solved_model(point)}:{point.order}:{point.dtype}"
 
 
 def cost(point: Point) -> float:
     """Estimated seconds of a run on one core: cells times steps, and a start.
 
     A step is limited by the fastest wave, sqrt(g (H1 + H2)), over the paper's time unless the run has one of its own.
-    `auto` counts as one-dimensional, as it is for the round column.
     """
     half = point.cells / 2
     cells, kind = {"quarter": (half**2, "planar"), "plane": (4 * half**2, "planar")}.get(
-        point.model, (half, "axial")
+        solved_model(point), (half, "axial")
     )
     seconds = point.t_end or 0.54 * math.sqrt(point.radius / 0.0705)
     fastest = math.sqrt(point.g * point.a_2 * point.radius * (1 + point.a_H))

@@ -75,6 +75,11 @@ def to_dict(point: Point) -> dict:
     return values
 
 
+def options_text(point: Point) -> str:
+    """Scene options of a point as compact JSON, in one order."""
+    return json.dumps(dict(point.scene_options), separators=(",", ":"), sort_keys=True)
+
+
 def from_dict(values: dict) -> Point:
     """Point of checked values by key; the inverse of `to_dict`."""
     values = dict(values)

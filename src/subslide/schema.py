@@ -17,16 +17,18 @@ class ConfigError(ValueError):
 
 @functools.cache
 def properties() -> dict[str, dict]:
-    """Schema of each key, by name, in the order of the file."""
-    return json.loads(PATH.read_text(encoding="utf-8"))["properties"]
+    """Schema of each key, by name, in the order of the file; scenes are the files in their folder."""
+    found = json.loads(PATH.read_text(encoding="utf-8"))["properties"]
+    found["scene"]["enum"] = sorted(path.stem for path in PATH.with_name("scenes").glob("[a-z]*.py"))
+    return found
 
 
 @functools.cache
-def _check(key: str):
-    """Function that raises unless its argument satisfies the schema of `key`."""
+def _check(about: str):
+    """Function that raises unless its argument satisfies a schema, given as JSON."""
     import fastjsonschema  # a tenth of the start-up time of jsonschema
 
-    return fastjsonschema.compile(properties()[key])
+    return fastjsonschema.compile(json.loads(about))
 
 
 def is_axis(key: str) -> bool:
@@ -36,16 +38,21 @@ def is_axis(key: str) -> bool:
 
 def checked(key: str, value, name: str = ""):
     """Value as the schema of `key` wants it; ConfigError, which calls the key `name`, if it is not allowed."""
+    return conform(properties()[key], value, name or key)
+
+
+def conform(about: dict, value, name: str):
+    """Value as the schema `about` wants it; ConfigError, which calls it `name`, if it is not allowed."""
     import fastjsonschema
 
     value = _number_of_text(value)
     try:
         if not _finite(value):
             raise ConfigError
-        _check(key)(value)
+        _check(json.dumps(about))(value)
     except (ConfigError, fastjsonschema.JsonSchemaValueException, OverflowError):
-        raise ConfigError(_refusal(key, value, name or key)) from None
-    return int(value) if _is_integer(properties()[key]) else value
+        raise ConfigError(_refusal(about, value, name)) from None
+    return int(value) if _is_integer(about) else value
 
 
 def closest(name: str, names) -> str:
@@ -57,7 +64,11 @@ def closest(name: str, names) -> str:
 
 def allowed(key: str) -> str:
     """Words for the values that a key may take, such as 'a number from 0 to below 1'."""
-    schema = properties()[key]
+    return range_of(properties()[key])
+
+
+def range_of(schema: dict) -> str:
+    """Words for the values that a schema allows."""
     if "allowed" in schema:
         return schema["allowed"]
     if "enum" in schema:
@@ -72,7 +83,12 @@ def allowed(key: str) -> str:
 
 def unit(key: str) -> str:
     """Unit of a key for people, '' if it has none."""
-    text = properties()[key].get("unit", "")
+    return unit_of(properties()[key])
+
+
+def unit_of(about: dict) -> str:
+    """Unit that a schema states, for people; '' if it has none."""
+    text = about.get("unit", "")
     return "" if text == "1" else text
 
 
@@ -92,14 +108,13 @@ def show(value) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def _refusal(key: str, value, name: str) -> str:
-    hint = closest(value, [str(v) for v in _names(key)]) if isinstance(value, str) else ""
-    end = f" ({unit(key)})" if unit(key) else ""
-    return f"{name}: {show(value)} is not allowed; allowed: {allowed(key)}{end}{hint}"
+def _refusal(about: dict, value, name: str) -> str:
+    hint = closest(value, [str(v) for v in _names(about)]) if isinstance(value, str) else ""
+    end = f" ({unit_of(about)})" if unit_of(about) else ""
+    return f"{name}: {show(value)} is not allowed; allowed: {range_of(about)}{end}{hint}"
 
 
-def _names(key: str) -> list:
-    schema = properties()[key]
+def _names(schema: dict) -> list:
     return [v for part in (schema, *schema.get("anyOf", ())) for v in part.get("enum", ())]
 
 
@@ -132,7 +147,9 @@ def metavar(key: str) -> str:
     about = properties()[key]
     if "enum" in about:
         return "|".join(map(str, about["enum"]))
-    words = "".join(f"{name}|" for name in _names(key))
+    if about.get("type") == "object":
+        return "NAME=VALUE,..."
+    words = "".join(f"{name}|" for name in _names(about))
     letter = (
         "N" if about.get("type") == "integer" else {"degree": "DEG", "s": "S"}.get(about.get("unit"), "F")
     )

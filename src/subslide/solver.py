@@ -9,7 +9,8 @@ import numpy as np
 
 from .fields import FRONT_THRESHOLDS, STATUSES
 from .kernels import clock as k
-from .models.build import build, resolve_model
+from .models.build import build
+from .models.choice import resolve_model
 from .points import Point
 
 DRY_DEPTH = 1e-6

@@ -5,7 +5,6 @@
 
 import functools
 import itertools
-import json
 import math
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,7 +16,7 @@ import xarray as xr
 from subslide import bands, fields, schema
 from subslide.atomic import replacing, write_text
 from subslide.config import COARSENING
-from subslide.points import RUN_KEYS, Point, friction_number, from_dict
+from subslide.points import RUN_KEYS, Point, friction_number, from_dict, options_text
 from subslide.results import Results, trimmed
 
 MOST_RUNS_IN_CSV = 1000
@@ -126,7 +125,7 @@ def run_row(row: dict, run: xr.Dataset) -> dict:
     """Row of the table of runs, by column. row: the point's values; run: its record."""
     point = _point(row)
     found = {key: row[key] for key in ("id", "numerics", *RUN_KEYS) if key != "snapshot_times"}
-    found["scene_options"] = json.dumps(row["scene_options"])
+    found["scene_options"] = options_text(point)
     found.update(m=friction_number(point), resolved_model=str(run["model"].values))
     for name in ("dx", "steps", "time_at_rest", "box_half_width", "status", "status_detail"):
         found[name] = run[name].item()

@@ -10,19 +10,9 @@ from ..kernels.friction import LAWS
 from ..kernels.viscosity import SCHEMES
 from ..kernels.waves import SPEEDS
 from .axial import Axial
+from .choice import geometry
 from .grid import make_grid
 from .plane import Plane
-
-AXIAL = ("radial", "one-layer", "line")
-
-
-def resolve_model(point):
-    """Return the model of a point: its own, or for `auto` the cheapest that is exact for its scene."""
-    if point.model != "auto":
-        return point.model
-    return {"round": "radial", "quarter": "quarter", "line": "line"}.get(
-        scenes.load(point.scene).SYMMETRY, "plane"
-    )
 
 
 def needs_general(point):
@@ -60,20 +50,21 @@ def build(point, model, box, watched, dry_depth):
     """
     real = np.dtype(point.dtype).type
     dx = 0.6 / point.cells / 0.0705
-    grid = make_grid(model, dx, box)
+    grid = make_grid(geometry(model, point), dx, box)
     state = scenes.load(point.scene).initial(grid, point)
     alone = model == "one-layer"
     scene = scaled(point, 1 if alone else 2, dx, dry_depth)
     level = real(1.0 + point.a_H)
-    shape = (len(grid.centres),) * (1 if model in AXIAL else 2)
+    axial = grid.geometry in ("radius", "line")
+    shape = (len(grid.centres),) * (1 if axial else 2)
     flat = np.ptp(state.h1 + state.h2) == 0
     state = scenes.State(*(np.broadcast_to(np.asarray(values, real), shape) for values in state))
     if flat:  # flat to the bit in the working precision too
         h1, h2 = scenes.level_off(state.h2, level)
         state = state._replace(h1=h1, h2=h2)
     closed = point.boundary == "wall"
-    if model in AXIAL:
-        round_scene = model != "line"
+    if axial:
+        round_scene = grid.geometry == "radius"
         return Axial(
             model,
             scene,
@@ -84,7 +75,7 @@ def build(point, model, box, watched, dry_depth):
             level=real(1) if alone else level,
             watched=watched,
         )
-    mirrored = model == "quarter"
+    mirrored = grid.geometry == "quarter"
     return Plane(
         model,
         scene,

@@ -6,9 +6,12 @@ import numpy as np
 
 
 class Grid(NamedTuple):
-    """Where cells are. `edges` (n + 1) holds along each axis, scaled by R; the axis of the scene is at 0."""
+    """Where cells are. `edges` (n + 1) holds along each axis, scaled by R; the axis of the scene is at 0.
 
-    model: str
+    geometry: "radius", "line", "quarter" or "plane".
+    """
+
+    geometry: str
     dx: float
     edges: np.ndarray
 
@@ -18,7 +21,7 @@ class Grid(NamedTuple):
         return 0.5 * (self.edges[1:] + self.edges[:-1])
 
 
-def make_grid(model, dx, half_cells):
-    """Return the grid of `model` that reaches `half_cells` cells from the axis, on both sides where it has two."""
-    first = -half_cells if model in ("plane", "line") else 0
-    return Grid(model, dx, np.arange(first, half_cells + 1) * dx)
+def make_grid(geometry, dx, half_cells):
+    """Return the grid that reaches `half_cells` cells from the axis, on both sides in the plane and on a line."""
+    first = -half_cells if geometry in ("plane", "line") else 0
+    return Grid(geometry, dx, np.arange(first, half_cells + 1) * dx)

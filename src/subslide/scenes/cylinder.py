@@ -3,19 +3,20 @@
 import numpy as np
 
 from . import still_water
+from ._cells import over_plane
 
-SYMMETRY = "round"
+OPTIONS = {}
+
+
+def symmetry(point):
+    """Return the scene's symmetry."""
+    return "round"
 
 
 def initial(grid, point):
     """Return the column at rest under still water (alone for `one-layer`)."""
-    if grid.model in ("radial", "one-layer"):
-        h2 = radial_depth(grid.edges)
-    else:
-        h2 = quadrant_depth(grid.edges[grid.edges >= 0])
-        if grid.model == "plane":
-            h2 = np.concatenate([h2[::-1], h2])
-            h2 = np.concatenate([h2[:, ::-1], h2], axis=1)
+    lone = grid.geometry == "radius"
+    h2 = radial_depth(grid.edges) if lone else over_plane(grid, quadrant_depth)
     return still_water(h2, 1.0 + point.a_H)
 
 

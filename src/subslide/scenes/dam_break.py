@@ -1,0 +1,44 @@
+"""A dam at x = 0: on a line, a layer at rest that is deeper on the left is let go.
+
+Grains are 1 deep and rest under still water, or alone in the model one-layer. Water is 1 + a_H deep, over a bare bed.
+"""
+
+import numpy as np
+
+from ..exact.dam_break import DEFAULTS, depth
+from . import State, check_walls, options, still_water
+
+OPTIONS = {
+    "layer": {
+        "description": "layer behind the dam",
+        "enum": ["grains", "water"],
+        "default": DEFAULTS["layer"],
+    },
+    "downstream": {
+        "description": "depth beyond the dam over the depth behind it; 0 is dry",
+        "type": "number",
+        "minimum": 0,
+        "exclusiveMaximum": 1,
+        "default": DEFAULTS["downstream"],
+    },
+}
+
+
+def symmetry(point):
+    """Return the scene's symmetry."""
+    return "line"
+
+
+def check(point):
+    """Raise a `SceneError` unless the box has walls for the grains behind the dam to lean on."""
+    if options(point)["layer"] == "grains":
+        check_walls(point)
+
+
+def initial(grid, point):
+    """Return the layer at rest behind its dam."""
+    own = options(point)
+    level = 1.0 + point.a_H
+    if own["layer"] == "water":
+        return State(depth(grid.centres, 0.0, level, own["downstream"] * level), np.zeros(len(grid.centres)))
+    return still_water(depth(grid.centres, 0.0, 1.0, own["downstream"]), level)
