@@ -44,7 +44,8 @@ QUANTITIES = {
 
 FORMAL_ORDER = 1.0
 """Best order of these quantities in either scheme: the column is let go with a jump, and no scheme is better than first
-order at what comes of one. Measured at second order on 3200 and 6400 cells: about 1 for deposits."""
+order at what comes of one. Measured at second order (a_H 1 and 10; r 0, 0.4 and 0.8; 234 values on 200 to 1600 cells):
+the band holds the limit from 6400 cells in 94 %; Roache's index with an order up to that of the scheme did in 46 %."""
 
 
 class Measured(NamedTuple):
