@@ -14,12 +14,13 @@ from subslide import config, scenes, schema
 from subslide.atomic import write_text
 from subslide.models.choice import model_reason
 from subslide.points import Point, from_dict
+from subslide.reading import read_yaml
 from subslide.schema import ConfigError
 
 
 def point_of(path: str | None, options: dict[str, str]) -> Point:
     """Point of a configuration file, if any, and of options (texts by key), which win."""
-    values = config.read_yaml(path) if path else {}
+    values = read_yaml(path) if path else {}
     names = {key: f"{path}: {key}" for key in values}
     for key, text in options.items():
         values[key] = _options_of_text(text) if key == "scene_options" else _value_of_text(text)

@@ -9,7 +9,20 @@ import subslide
 
 PACKAGE = Path(subslide.__file__).parent
 SOLVING = {"kernels", "models", "scenes", "diagnostics", "solver"}
-STUDY = {"config", "ledger", "jobs", "records", "layout", "results", "tables", "drawing", "docs", "figures"}
+STUDY = {
+    "config",
+    "reading",
+    "bands",
+    "ledger",
+    "jobs",
+    "records",
+    "layout",
+    "results",
+    "tables",
+    "drawing",
+    "docs",
+    "figures",
+}
 HEAVY = {"xarray", "dask", "pandas", "pyarrow", "matplotlib", "seaborn", "scipy", "snakemake", "jsonschema"}
 LIGHT = (
     "__init__",
@@ -18,6 +31,7 @@ LIGHT = (
     "_sources",
     "atomic",
     "config",
+    "reading",
     "schema",
     "points",
     "jobs",
@@ -34,6 +48,8 @@ FORBIDDEN = {
     "solver": STUDY | HEAVY,
     "figures": SOLVING,
     "results": SOLVING,
+    "bands": SOLVING | HEAVY,
+    "convergence": SOLVING | STUDY | HEAVY | {"points", "schema"},
     "tables": SOLVING,
     "ledger": SOLVING | HEAVY,
     **{name: HEAVY for name in LIGHT},
