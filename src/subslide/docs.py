@@ -62,8 +62,8 @@ scene_options:
 ```
 
 On the command line: `--scene ellipse --scene-options elongation=2,angle=30`. Lengths are in units of R, depths of H2,
-and speeds of sqrt(g H2). With `model: auto` a scene is solved in the cheapest geometry that gives its answer, and a model
-that cannot give it is refused; a record and the line of `subslide run` say which one was chosen and why.
+and speeds of sqrt(g H2). With `model: auto` a scene is solved in the cheapest geometry that gives its answer, and a
+model that cannot give it is refused; a record and the line of `subslide run` say which one was chosen and why.
 
 """
 
