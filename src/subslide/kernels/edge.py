@@ -37,7 +37,8 @@ def front_coefficients(r, dry_depth, h_i, u_i, root_i, h_j, u_j, root_j, h, u):
 
     Under water grains spread far slower than waves of the water run: u -+ sqrt(g (1-r) h), and u + 2 sqrt(g (1-r) h)
     into a dry cell (Deviation from the paper's HLL, which spreads a front at the speed of the water's waves: it lags
-    two to four times as far).
+    two to four times as far). The water's viscosity is then what the system's HLL gives to both layers together less
+    the grains' part, so that a flat surface stays flat.
     """
     real = type(r)
     root = math.sqrt(real(1) - r)
@@ -98,7 +99,6 @@ def edge_fluxes(s, stuck, slowest, fastest, h1_i, u1_i, h2_i, u2_i, h1_j, u1_j, 
     c2 = k1 * d_q1 + (u1 + u1) * b2 + h1 * d_q2
     c4 = r * h2 * d_q1 + k2 * d_q2 + (u2 + u2) * b4
 
-    v1 = a0 * e1 + a1 * d_q1 + a2 * b2
     v2 = a0 * d_q1 + a1 * b2 + a2 * c2
     front = s.own_front and min(h2_i, h2_j) <= s.dry_depth
     g0, g1 = front_coefficients(r, s.dry_depth, h2_i, u2_i, root2_i, h2_j, u2_j, root2_j, h2, u2)
@@ -106,6 +106,7 @@ def edge_fluxes(s, stuck, slowest, fastest, h1_i, u1_i, h2_i, u2_i, h1_j, u1_j, 
     g1 = g1 if front else a1
     g2 = zero if front else a2
     v3 = g0 * e3 + g1 * d_q2 + g2 * b4
+    v1 = (a0 * (e1 + e3) + a1 * (d_q1 + d_q2) - v3) if front else a0 * e1 + a1 * d_q1 + a2 * b2
     v4 = g0 * d_q2 + g1 * b4 + g2 * c4
     if is_general(s) and s.scheme == ROE and not dry:
         a = (u1, k1, h1, u2, k2, r * h2)
