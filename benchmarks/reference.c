@@ -32,8 +32,8 @@ static inline void hll(REAL s_l, REAL s_r, REAL *a0, REAL *a1)
 }
 
 /* in: h1 u1 h2 u2 at i, the same at j, lower and upper bound of the speeds in both cells, jump of h1 + h2, stuck (0 or
-   1). out: f1 m1 p1 f2 m2 p2. Each an array of n. own_front: grains have speeds of their own at a dry edge. */
-void edge_fluxes(long n, REAL r, REAL dry_depth, int own_front, const REAL *const *in, REAL *const *out)
+   1). out: f1 m1 p1 f2 m2 p2. Each an array of n. exact_front: grains have speeds of their own at a dry edge. */
+void edge_fluxes(long n, REAL r, REAL dry_depth, int exact_front, const REAL *const *in, REAL *const *out)
 {
     const REAL *restrict h1_in = in[0], *restrict u1_in = in[1], *restrict h2_in = in[2], *restrict u2_in = in[3];
     const REAL *restrict h1_jn = in[4], *restrict u1_jn = in[5], *restrict h2_jn = in[6], *restrict u2_jn = in[7];
@@ -105,7 +105,7 @@ void edge_fluxes(long n, REAL r, REAL dry_depth, int own_front, const REAL *cons
         REAL o_l = h2_i <= dry_depth ? u2_j - 2 * c_j : least(u2 - c_m, u2_i - c_i);
         REAL o_r = h2_j <= dry_depth ? u2_i + 2 * c_i : most(u2 + c_m, u2_j + c_j);
         hll(o_l, o_r, &o0, &o1);
-        int front = own_front && least(h2_i, h2_j) <= dry_depth;
+        int front = exact_front && least(h2_i, h2_j) <= dry_depth;
         o0 = front ? o0 : a0;
         o1 = front ? o1 : a1;
         REAL o2 = front ? zero : a2;

@@ -127,7 +127,7 @@ def c_reference(edges, out):
     outputs = (address * len(out))(*(pointer(array, dtype) for array in out))
 
     def fill(edges=edges, out=out):  # holds the arrays
-        function(len(edges.stuck), scene.r, scene.dry_depth, scene.own_front, inputs, outputs)
+        function(len(edges.stuck), scene.r, scene.dry_depth, scene.exact_front, inputs, outputs)
 
     return fill
 

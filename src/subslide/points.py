@@ -30,7 +30,7 @@ class Point:
     pouliquen_length: float = 0.005
     model: str = "auto"
     scheme: str = "ifcph"
-    front_speeds: str = "grains"
+    front_flux: str = "exact"
     wave_speeds: str = "exact"
     order: int = 2
     cells: int = 200

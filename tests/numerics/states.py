@@ -16,7 +16,16 @@ THRESHOLDS = (0.01, 0.03, 0.05)
 
 
 def scene(
-    dx, layers=2, scheme="ifcph", order=1, r=0.4, friction=1.0, cfl=0.9, own_front=True, speeds="exact", **law
+    dx,
+    layers=2,
+    scheme="ifcph",
+    order=1,
+    r=0.4,
+    friction=1.0,
+    cfl=0.9,
+    exact_front=True,
+    speeds="exact",
+    **law,
 ):
     """Scaled numbers of a run in double precision; `law` holds the fields of a friction law beside Coulomb's."""
     real = np.float64
@@ -29,7 +38,7 @@ def scene(
         dx=real(dx),
         cfl=real(cfl),
         dry_depth=real(1e-6),
-        own_front=int(own_front),
+        exact_front=int(exact_front),
         speeds=SPEEDS[speeds],
     )
     found = found._replace(**law)

@@ -27,7 +27,7 @@ class Scene(NamedTuple):
     dx: float
     cfl: float
     dry_depth: float
-    own_front: int  # 1: at a dry edge grains have the HLL speeds of grains alone
+    exact_front: int  # 1: grains run onto a dry bed with the exact flux of grains alone
     speeds: int = 0  # see `waves.SPEEDS`
     law: int = 0  # see `friction.LAWS`
     turbulence: float = 0.0  # g / (xi a_2)

@@ -135,7 +135,7 @@ def grain_edges(s, left, right, fx):
         i = k + GHOSTS - 1
         j = i + 1
         fx.f2[k], fx.m2[k], fx.p2[k] = grain_edge_fluxes(
-            s.scheme, s.dry_depth, fx.stuck[k] != zero, right.h2[i], right.u2[i], left.h2[j], left.u2[j]
+            s, fx.stuck[k] != zero, right.h2[i], right.u2[i], left.h2[j], left.u2[j]
         )
 
 

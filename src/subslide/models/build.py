@@ -33,7 +33,7 @@ def scaled(point, layers, dx, dry_depth):
         dx=real(dx),
         cfl=real(point.cfl),
         dry_depth=real(dry_depth),
-        own_front=int(point.front_speeds == "grains" and point.scheme in ("ifcph", "roe")),
+        exact_front=int(point.front_flux == "exact" and point.scheme in ("ifcph", "roe")),
         speeds=SPEEDS[point.wave_speeds],
         law=LAWS[point.friction],
         turbulence=real(point.g / (point.xi * point.a_2)),
