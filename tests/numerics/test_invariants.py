@@ -1,4 +1,4 @@
-"""What no run may break: volume, positivity, mirrors, similarity, energy, momentum, the number of threads."""
+"""What no run may break: volume, positivity, momentum; and how runs end. See also energy, similarity, symmetry."""
 
 import dataclasses
 
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from states import advance, axial, inner, plane
+from states import advance, axial, inner
 
 from subslide.fields import STATUSES
 from subslide.kernels import clock as k
@@ -15,8 +15,6 @@ from subslide.kernels.viscosity import SCHEMES
 from subslide.points import Point
 from subslide.scenes.cylinder import disc_corner_area, quadrant_depth, radial_depth
 from subslide.solver import solve
-
-SERIES = ("time", "x_front", "max_abs_eta", "max_abs_eta_outside", "h2", "eta", "h2_diagonal")
 
 
 def column(r=0.4, **options):
@@ -36,24 +34,6 @@ def test_volumes_hold_and_no_depth_is_negative(scheme, order, model):
     assert np.isclose(run.sediment_volume[0], expected, rtol=1e-12)
 
 
-@pytest.mark.parametrize("order", [1, 2])
-@pytest.mark.parametrize("scheme", SCHEMES)
-def test_the_quarter_is_the_plane_and_the_plane_is_symmetric_to_the_bit(order, scheme):
-    whole = solve(column(model="plane", order=order, scheme=scheme, fields=True))
-    quarter = solve(column(model="quarter", order=order, scheme=scheme, fields=True))
-    for field in (whole.h2_field[-1], whole.eta_field[-1]):
-        np.testing.assert_array_equal(field, field[::-1])
-        np.testing.assert_array_equal(field, field[:, ::-1])
-        np.testing.assert_array_equal(field, field.T)
-    n = len(quarter.x)
-    np.testing.assert_array_equal(whole.h2_field[:, n:, n:], quarter.h2_field)
-    np.testing.assert_array_equal(whole.h2[:, n:], quarter.h2)
-    np.testing.assert_array_equal(whole.eta[:, n:], quarter.eta)
-    for name in ("time", "x_front", "max_abs_eta", "max_abs_eta_outside"):
-        np.testing.assert_array_equal(getattr(whole, name), getattr(quarter, name))
-    np.testing.assert_allclose(whole.water_volume, quarter.water_volume, rtol=1e-13)
-
-
 def test_kernels_are_cached_by_their_sources_even_where_numba_came_first():
     # numba itself would not notice an edited imported file
     from subslide import source_hash
@@ -61,91 +41,37 @@ def test_kernels_are_cached_by_their_sources_even_where_numba_came_first():
     assert numba.config.CACHE_DIR.endswith(source_hash("solver"))
 
 
-def test_two_threads_give_the_bits_of_one():
-    if numba.config.NUMBA_NUM_THREADS < 2:
-        pytest.fail("the tests must run where numba may use two threads")
-    one = solve(column(model="quarter"), threads=1)
-    two = solve(column(model="quarter"), threads=2)
-    for name in SERIES:
-        np.testing.assert_array_equal(getattr(one, name), getattr(two, name))
-
-
 @pytest.mark.parametrize("order", [1, 2])
-def test_columns_of_7_cm_and_700_m_have_the_same_scaled_answer(order):
-    small = solve(Point(radius=0.07, cells=100, order=order))
-    large = solve(Point(radius=700.0, cells=100, order=order))
-    for name in ("L_f", "x_front", "h2", "max_abs_eta"):
-        np.testing.assert_allclose(
-            getattr(large, name) / 700.0, getattr(small, name) / 0.07, rtol=1e-9, atol=1e-12
-        )
-    np.testing.assert_allclose(large.time, small.time * 100.0, rtol=1e-9)
-
-
-def test_friction_enters_by_tan_delta_over_a_2_alone():
-    one = solve(Point(a_2=1.0, delta=30.0, snapshot_times=(), cells=100))
-    two = solve(
-        Point(
-            a_2=0.56, delta=np.degrees(np.arctan(0.56 * np.tan(np.radians(30)))), snapshot_times=(), cells=100
-        )
-    )
-    np.testing.assert_allclose(two.L_f, one.L_f, rtol=1e-6)
-
-
-def test_one_layer_and_two_layers_at_r_0_approach_each_other():
-    gaps = []
-    for cells in (100, 400, 1600):
-        alone = solve(Point(r=0.0, model="one-layer", cells=cells))
-        under = solve(Point(r=0.0, model="radial", cells=cells))
-        gaps.append(abs(alone.L_f[0] / under.L_f[0] - 1))
-    assert gaps[2] < gaps[1] < gaps[0]
-    assert gaps[2] < 0.015
-
-
-def test_the_plane_approaches_the_radius():
-    gaps = []
-    for cells in (50, 100, 200):
-        radius = solve(Point(model="radial", cells=cells, t_end=0.16))
-        plane_ = solve(Point(model="quarter", cells=cells, t_end=0.16))
-        there = np.interp(radius.x, plane_.x, plane_.h2[-1])
-        gaps.append(np.abs(there - radius.h2[-1]).sum() / radius.h2[-1].sum())
-    assert gaps[2] < gaps[1] < gaps[0]
-    assert gaps[2] < 0.02
-
-
-@pytest.mark.parametrize("order", [1, 2])
-def test_energy_never_grows_inside_walls(order):
-    run = solve(column(model="radial", order=order, boundary="wall", scheme="hll"))
-    assert np.diff(run.energy).max() <= 1e-9 * run.energy[0]
-    assert run.energy[-1] < run.energy[0]
-
-
-def test_momentum_holds_without_friction():
-    edges = np.linspace(-4, 4, 201)
+@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize("dry", [False, True])
+def test_momentum_changes_by_the_pressure_at_the_ends_alone(scheme, order, dry):
+    # without friction, before waves reach the ends; where grains are dry, velocities are cut off below 1e-6 H2
+    r, dx = 0.6, 0.05
+    edges = np.arange(-80, 81) * dx
     x = (edges[1:] + edges[:-1]) / 2
-    bump = np.exp(-4 * x**2)
-    h2 = 0.5 + 0.3 * bump
-    model = axial(edges, 2 - h2, 0.1, h2, 0.2 * bump, level=2.0, friction=0.0, walls=(False, False))
+    h2 = np.where((x > -1) & (x < 0.5), 1.0, 0.0 if dry else 0.2) + np.where((x > 0.7) & (x < 1), 0.3, 0.0)
+    h1 = np.where(x < 0.2, 1.6, 2.0) - h2
+    options = {"scheme": scheme, "order": order, "r": r, "friction": 0.0, "walls": (False, False)}
+    model = axial(edges, h1, 0.05, h2, 0.0, level=2.0, **options)
+
+    def pressure(end):
+        a, b = h1[end], h2[end]
+        return r * a * a / 2 + r * a * b + b * b / 2
 
     def momentum():
-        return (0.4 * inner(model, "h1") * inner(model, "u1") + inner(model, "h2") * inner(model, "u2")).sum()
+        return (
+            r * inner(model, "h1") * inner(model, "u1") + inner(model, "h2") * inner(model, "u2")
+        ).sum() * dx
 
-    def flow_in():  # what uniform ends let in is let out
-        return momentum()
+    def inflow(end):
+        return r * h1[end] * 0.05**2 + pressure(end)
 
-    before = flow_in()
-    advance(model, stop=0.5)
-    assert np.isclose(flow_in(), before, rtol=1e-12)
-
-
-@pytest.mark.parametrize("order", [1, 2])
-def test_a_state_that_does_not_vary_along_y_stays_a_line(order):
-    edges = np.linspace(-1, 1, 33)
-    x = (edges[1:] + edges[:-1]) / 2
-    h2 = np.tile(np.where(x < 0, 1.0, 0.0), (32, 1))
-    model = plane(edges, 2 - h2, h2, level=2.0, friction=0.5, order=order)
-    advance(model, stop=0.3)
-    np.testing.assert_array_equal(inner(model, "h2"), inner(model, "h2")[:1].repeat(32, axis=0))
-    np.testing.assert_array_equal(inner(model, "v2"), 0)
+    before = momentum()
+    samples, outcome = advance(model, stop=1.0, thresholds=(9.0, 9.0, 9.0))
+    assert outcome == k.REACHED
+    np.testing.assert_allclose(inner(model, "u1")[[0, -1]], 0.05, rtol=1e-12)
+    change = (inflow(0) - inflow(-1)) * samples[-1, k.TIME]
+    np.testing.assert_allclose(momentum() - before, change, rtol=0, atol=1e-6 if dry else 1e-12)
 
 
 def test_the_box_grows_and_no_front_is_cut():
