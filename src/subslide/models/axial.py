@@ -44,7 +44,7 @@ class Axial:
         if radial:
             self.source[GHOSTS:-GHOSTS] = -0.5 / self.x
             self.source[GHOSTS - 1] = -self.source[GHOSTS]  # mirrored, so that nothing passes a wall
-            self.source[-GHOSTS] = -self.source[-GHOSTS - 1]
+            self.source[-GHOSTS] = -self.source[-GHOSTS - 1] if walls[1] else -0.5 / (self.x[-1] + dx)
         self.walls = (bool(walls[0]), bool(walls[1]))
         beside = int(np.searchsorted(self.x, 0.0))
         beyond = int(np.searchsorted(self.x, 1.0))
