@@ -19,6 +19,7 @@ OPTIONS = {
         "description": "path of the NetCDF file, from the folder where the command runs; not an axis",
         "type": "string",
         "minLength": 1,
+        "axis": False,
         "allowed": "the path of a NetCDF file",
     },
     "method": {
@@ -31,6 +32,7 @@ OPTIONS = {
         "description": "SHA-256 of the file; filled in, and compared if it is given",
         "type": "string",
         "pattern": "^([0-9a-f]{64})?$",
+        "axis": False,
         "default": "",
         "allowed": "64 hex digits",
     },
