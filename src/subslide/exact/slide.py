@@ -40,6 +40,6 @@ def solution(point, x, time):
     """Return h2 and eta (m) at x (m): both stay as they are until a wave comes from an end of the box."""
     s, t = scaled(point, x, time)
     start = {**DEFAULTS, **dict(point.scene_options)}["speed"]
-    fastest = math.sqrt(1.0 + point.a_H)
-    reached = (s < -half_box(point) + (start + fastest) * t) | (s > half_box(point) - fastest * t)
+    fastest = start + math.sqrt(1.0 + point.a_H)  # also of the shock from the wall that the layer runs into
+    reached = np.abs(s) > half_box(point) - fastest * t
     return in_metres(point, np.where(reached, np.nan, 1.0), np.where(reached, np.nan, 0.0))
