@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from subslide import figures, scenes, schema
+from subslide import figures, scene_options, scenes, schema
 from subslide.models import choice
 from subslide.points import RUN_KEYS, Point, from_dict
 from subslide.reading import read_yaml
@@ -106,9 +106,8 @@ def resolve(values: dict, names: dict[str, str] | None = None) -> tuple[str, Poi
     """Label of the numerics, and the point, of checked single values by key; scene options are checked here."""
     values = dict(values)
     name = (names or {}).get("scene_options", "scene_options")
-    values["scene_options"] = _options(
-        values.get("scene", Point.scene), values.get("scene_options", {}), name
-    )
+    scene, given = values.get("scene", Point.scene), values.get("scene_options", {})
+    values["scene_options"] = scene_options.checked(scene, given, name)
     label = values.pop("numerics", schema.properties()["numerics"]["default"])
     point = from_dict({**schema.properties()["numerics"]["presets"][label], **values})
     if point.model == "one-layer" and point.r != 0:
@@ -135,45 +134,6 @@ def resolve(values: dict, names: dict[str, str] | None = None) -> tuple[str, Poi
 def solved_model(point: Point) -> str:
     """Model that a point is solved with: its own, or what `auto` chooses."""
     return choice.resolve_model(point)
-
-
-def _options(scene: str, given: dict, name: str) -> dict:
-    """Every option of a scene by name, checked, in one number format; `name` is the key's name in messages."""
-    module = scenes.load(scene)
-    for option, value in given.items():
-        if option not in module.OPTIONS:
-            hint = schema.closest(option, module.OPTIONS)
-            known = "" if hint else f"; allowed: {', '.join(module.OPTIONS) or 'none'}"
-            raise ConfigError(
-                f"{name}: {schema.show(option)}: the scene {scene} has no such option"
-                f" (its value: {schema.show(value)}){hint}{known}"
-            )
-    found = {}
-    for option, about in module.OPTIONS.items():
-        if option not in given and "default" not in about:
-            raise ConfigError(
-                f"{name}: {option}: the scene {scene} needs this option; allowed: {schema.range_of(about)}"
-            )
-        value = schema.conform(about, given.get(option, about.get("default")), f"{name}: {option}")
-        found[option] = float(value) + 0.0 if about.get("type") == "number" else value
-    try:
-        return module.complete(found) if hasattr(module, "complete") else found
-    except scenes.SceneError as error:
-        raise ConfigError(f"{name}: {error}") from None
-
-
-def _option_axis(given: dict) -> list[dict]:
-    """Mappings with one value for each option: the product of those that have a list."""
-    lists = {}
-    for option, value in given.items():
-        lists[option] = value if isinstance(value, list) else [value]
-        if not lists[option]:
-            raise ConfigError(
-                f"scene_options: {option}: [] makes an empty grid; allowed: a value or a list of at least one"
-            )
-    if math.prod(map(len, lists.values())) > MOST_POINTS:
-        raise ConfigError(f"scene_options: too many combinations; allowed: at most {MOST_POINTS}")
-    return [dict(zip(lists, values, strict=True)) for values in itertools.product(*lists.values())]
 
 
 def _grids(values: dict) -> list[tuple[str, dict[str, list]]]:
@@ -241,7 +201,7 @@ def _check_keys(values: dict, known: Collection[str] | None = None) -> None:
 def _axis(key: str, value) -> list:
     """Values of one key along its axis, checked, without repeats."""
     if key == "scene_options":
-        return _option_axis(schema.checked(key, value))
+        return scene_options.along_axes(schema.checked(key, value))
     if not (schema.is_axis(key) and isinstance(value, list)):
         return [schema.checked(key, value)]
     if not value:

@@ -10,7 +10,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from subslide import config, scenes, schema
+from subslide import config, scene_options, scenes, schema
 from subslide.atomic import write_text
 from subslide.models.choice import model_reason
 from subslide.points import Point, from_dict
@@ -23,7 +23,8 @@ def point_of(path: str | None, options: dict[str, str]) -> Point:
     values = read_yaml(path) if path else {}
     names = {key: f"{path}: {key}" for key in values}
     for key, text in options.items():
-        values[key] = _options_of_text(text) if key == "scene_options" else _value_of_text(text)
+        mapping = key == "scene_options"
+        values[key] = scene_options.of_text(text, _value_of_text) if mapping else _value_of_text(text)
         names[key] = "--" + key.replace("_", "-")
     if isinstance(values.get("snapshot_times"), int | float):
         values["snapshot_times"] = [values["snapshot_times"]]
@@ -147,21 +148,6 @@ def _value_of_text(text):
         except ValueError:
             continue
     return text
-
-
-def _options_of_text(text: str) -> dict:
-    """Values by name of text such as 'elongation=2,angle=30'."""
-    found = {}
-    for part in filter(None, text.split(",")):
-        name, sign, value = (piece.strip() for piece in part.partition("="))
-        if not (name and sign and value):
-            raise ConfigError(
-                f"--scene-options: {schema.show(part)} is not allowed; allowed: NAME=VALUE, several parted by commas"
-            )
-        if name in found:
-            raise ConfigError(f"--scene-options: {name} is given twice; allowed: each option once")
-        found[name] = _value_of_text(value)
-    return found
 
 
 def _progress():

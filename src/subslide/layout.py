@@ -158,8 +158,6 @@ def _parameter(key: str, values: list) -> Variable:
         return _variable(key, np.array(values, float))
     about = schema.properties()[key]
     attrs = {"long_name": about["description"]}
-    if key == "scene_options":
-        return Variable(("run",), _text([json.dumps(dict(pairs)) for pairs in values]), attrs)
     if isinstance(values[0], str):
         return Variable(("run",), _text(values), attrs)
     if "unit" in about:

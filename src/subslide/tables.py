@@ -144,7 +144,9 @@ def run_row(row: dict, run: xr.Dataset) -> dict:
 def timing_row(run: xr.Dataset) -> dict:
     """Row of the table of timings, by column."""
     across = round(float(run["box_half_width"] / run["dx"]))
-    cells = {"quarter": across**2, "plane": 4 * across**2}.get(str(run["model"].values), across)
+    cells = {"quarter": across**2, "plane": 4 * across**2, "line": 2 * across}.get(
+        str(run["model"].values), across
+    )
     steps, seconds = int(run["steps"]), float(run["wall_seconds"])
     speed = cells * steps / seconds if seconds > 0 else math.nan
     return dict(zip(TIMING, (run["id"].item(), steps, seconds, cells, speed), strict=True))

@@ -1,0 +1,45 @@
+"""A uniform layer of grains that slides on a flat bed and is slowed by friction alone.
+
+Nothing varies along the bed, so that the water above neither pushes nor drags: du/dt = -(1-r) mu g for Coulomb's law,
+and -(1-r) mu g - g u^2 / (xi h2) for Voellmy's (Voellmy 1955, Schweiz. Bauztg. 73).
+"""
+
+import math
+
+import numpy as np
+
+from . import friction_number, half_box, in_metres, scaled
+
+DEFAULTS = {"speed": 1.0}
+"""Options of the scene that a point leaves out."""
+
+
+def speed(t, start, friction, turbulence=0.0):
+    """Return u at t of du/dt = -friction - turbulence u^2 from u = start until it is 0."""
+    t = np.asarray(t, float)
+    if turbulence == 0:
+        return np.maximum(0.0, start - friction * t)
+    if friction == 0:
+        return start / (1 + turbulence * start * t)
+    fall = math.sqrt(friction / turbulence)
+    return fall * np.tan(np.maximum(0.0, math.atan(start / fall) - math.sqrt(friction * turbulence) * t))
+
+
+def speed_of(point, time):
+    """Return the speed (m/s) of the layer of a point at the time (s); NaN for a law without a formula."""
+    if point.friction not in ("coulomb", "voellmy"):
+        return np.full(np.shape(time), np.nan)
+    _, t = scaled(point, 0.0, time)
+    turbulence = point.g / (point.xi * point.a_2) if point.friction == "voellmy" else 0.0
+    start = {**DEFAULTS, **dict(point.scene_options)}["speed"]
+    u = speed(t, start, (1 - point.r) * friction_number(point), turbulence)
+    return u * math.sqrt(point.g * point.a_2 * point.radius)
+
+
+def solution(point, x, time):
+    """Return h2 and eta (m) at x (m): both stay as they are until a wave comes from an end of the box."""
+    s, t = scaled(point, x, time)
+    start = {**DEFAULTS, **dict(point.scene_options)}["speed"]
+    fastest = start + math.sqrt(1.0 + point.a_H)  # also of the shock from the wall that the layer runs into
+    reached = np.abs(s) > half_box(point) - fastest * t
+    return in_metres(point, np.where(reached, np.nan, 1.0), np.where(reached, np.nan, 0.0))

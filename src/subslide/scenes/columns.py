@@ -1,0 +1,84 @@
+"""One or two round columns of grains of radius 1 and height 1, at rest under still water, anywhere in the box.
+
+Where two columns overlap the height is 1. The front is measured from the middle of the box, along x.
+"""
+
+import numpy as np
+
+from ..exact import half_box
+from . import SceneError, cylinder, options, still_water
+from ._cells import over_plane
+from ._discs import ellipse_area, fraction
+
+OPTIONS = {
+    "count": {"description": "number of columns", "enum": [1, 2], "default": 1},
+    "distance": {
+        "description": "distance of the centres of two columns, along x, over R",
+        "type": "number",
+        "minimum": 0,
+        "maximum": 100,
+        "default": 2.5,
+    },
+    **{
+        axis: {
+            "description": f"place of the column, or of the middle of two, along {axis} over R",
+            "type": "number",
+            "minimum": -100,
+            "maximum": 100,
+            "default": 0.0,
+        }
+        for axis in ("x", "y")
+    },
+}
+
+
+def spread(own):
+    """Return half the distance of the centres."""
+    return 0.5 * own["distance"] if own["count"] == 2 else 0.0
+
+
+def symmetry(point):
+    """Return the scene's symmetry."""
+    own = options(point)
+    if own["x"] or own["y"]:
+        return "none"
+    return "quarter" if spread(own) else "round"
+
+
+def check(point):
+    """Raise a `SceneError` unless all columns stand in the smallest box."""
+    own = options(point)
+    for axis, reach in (("x", 1.0 + spread(own)), ("y", 1.0)):
+        if abs(own[axis]) + reach > half_box(point):
+            raise SceneError(
+                f"scene_options: {axis}: {own[axis]:g} puts a column beyond the box, which ends at"
+                f" {half_box(point):.4g} R; allowed with these columns: at most {half_box(point) - reach:.4g} in size"
+            )
+
+
+def initial(grid, point):
+    """Return the columns at rest under still water."""
+    own = options(point)
+    symmetric = symmetry(point)
+    if symmetric == "round":
+        return cylinder.initial(grid, point)
+    place, half = (own["x"], own["y"]), spread(own)
+    if symmetric == "quarter":
+        h2 = over_plane(grid, lambda e: union(e, e, place, half))
+    else:
+        h2 = union(grid.edges, grid.edges, place, half)
+        if own["y"] == 0:  # mirrors change no bit
+            h2 = 0.5 * (h2 + h2[::-1])
+        if own["x"] == 0:
+            h2 = 0.5 * (h2 + h2[:, ::-1])
+    return still_water(h2, 1.0 + point.a_H)
+
+
+def union(x_edges, y_edges, place, half):
+    """Return the fraction (ny, nx) of each cell within 1 of a centre at place[0] - half or + half along x.
+
+    On either side of the line between the centres the nearer disc is the union of both.
+    """
+    left = ellipse_area(np.minimum(x_edges, place[0]), y_edges, (place[0] - half, place[1]))
+    right = ellipse_area(np.maximum(x_edges, place[0]), y_edges, (place[0] + half, place[1]))
+    return fraction(left + right, x_edges, y_edges)

@@ -1,0 +1,50 @@
+"""An elliptic column of grains of height 1 and of the cylinder's area, pi, at rest under still water."""
+
+import math
+
+from . import cylinder, options, still_water
+from ._cells import over_plane
+from ._discs import ellipse_area, fraction
+
+OPTIONS = {
+    "elongation": {
+        "description": "first semi-axis over the second",
+        "type": "number",
+        "minimum": 0.0625,
+        "maximum": 16,
+        "default": 1.5,
+    },
+    "angle": {
+        "description": "angle from the x axis to the first semi-axis",
+        "type": "number",
+        "minimum": -180,
+        "maximum": 180,
+        "default": 0.0,
+        "unit": "degree",
+    },
+}
+
+
+def symmetry(point):
+    """Return the scene's symmetry."""
+    own = options(point)
+    if own["elongation"] == 1:
+        return "round"
+    return "quarter" if own["angle"] % 90 == 0 else "none"
+
+
+def initial(grid, point):
+    """Return the column at rest under still water."""
+    own = options(point)
+    symmetric = symmetry(point)
+    if symmetric == "round":
+        return cylinder.initial(grid, point)
+    a = math.sqrt(own["elongation"])
+    if symmetric == "quarter":
+        axes = (a, 1 / a) if own["angle"] % 180 == 0 else (1 / a, a)
+        h2 = over_plane(grid, lambda e: fraction(ellipse_area(e, e, semi_axes=axes), e, e))
+    else:
+        e = grid.edges
+        h2 = fraction(ellipse_area(e, e, semi_axes=(a, 1 / a), angle=math.radians(own["angle"])), e, e)
+        h2 = 0.5 * (h2 + h2[::-1, ::-1])  # half a turn changes no bit
+    return still_water(h2, 1.0 + point.a_H)

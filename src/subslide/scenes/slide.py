@@ -1,0 +1,34 @@
+"""A uniform layer of grains, 1 deep, that slides to the right under still water or alone: for friction laws.
+
+Away from the walls at the ends of the line it keeps its depth and loses speed as `exact.slide` says.
+"""
+
+import numpy as np
+
+from ..exact.slide import DEFAULTS
+from . import check_walls, options, still_water
+
+OPTIONS = {
+    "speed": {
+        "description": "speed at the start over sqrt(g H2)",
+        "type": "number",
+        "minimum": 0,
+        "maximum": 10,
+        "default": DEFAULTS["speed"],
+    },
+}
+
+
+def symmetry(point):
+    """Return the scene's symmetry."""
+    return "line"
+
+
+def check(point):
+    """Raise a `SceneError` unless the layer ends at walls."""
+    check_walls(point)
+
+
+def initial(grid, point):
+    """Return the sliding layer under still water."""
+    return still_water(np.ones(len(grid.centres)), 1.0 + point.a_H)._replace(u2=options(point)["speed"])
