@@ -107,7 +107,7 @@ def edge_fluxes(s, stuck, slowest, fastest, h1_i, u1_i, h2_i, u2_i, h1_j, u1_j, 
 
     f2 = half * (q2_i + q2_j - (a0 * e3 + a1 * d_q2 + a2 * b4))
     m2 = half * (q2_i * u2_i + q2_j * u2_j - (a0 * d_q2 + a1 * b4 + a2 * c4))
-    front = s.exact_front and not stuck and min(h2_i, h2_j) <= s.dry_depth
+    front = s.exact_front and not stuck and h2_i != h2_j and min(h2_i, h2_j) <= s.dry_depth
     f2_front, m2_front = front_fluxes(r, h2_i, u2_i, root2_i, h2_j, u2_j, root2_j)
     f2 = f2_front if front else f2
     m2 = m2_front if front else m2
@@ -157,7 +157,7 @@ def grain_edge_fluxes(s, stuck, h_i, u_i, h_j, u_j):
     b = (h - u * u) * e + (u + u) * d_q
     f = half * (q_i + q_j - (a0 * e + a1 * d_q))
     m = half * (q_i * u_i + q_j * u_j - (a0 * d_q + a1 * b))
-    front = s.exact_front and not stuck and min(h_i, h_j) <= s.dry_depth
+    front = s.exact_front and not stuck and h_i != h_j and min(h_i, h_j) <= s.dry_depth
     f_front, m_front = front_fluxes(zero, h_i, u_i, root_i, h_j, u_j, root_j)
     f = f_front if front else f
     return (zero if stuck else f), (m_front if front else m), h * (h_j - h_i)
