@@ -29,7 +29,7 @@ COLUMNS = {
     "value_4": ("m", "value of its companion with cells/4"),
     "order": ("", "observed order of convergence p; empty where it cannot be told"),
     "limit": ("m", "Richardson's estimate of the value on ever finer grids; empty unless converging"),
-    "band": ("m", "half-width of the band of discretisation error about `value`; empty unless converging"),
+    "band": ("m", "half-width of the band of discretisation error about `value`; wide where not converged"),
     "convergence": ("", f"`{convergence.CONVERGING}` or `{convergence.NOT_CONVERGED}`"),
 }
 QUANTITIES = {

@@ -1,7 +1,8 @@
 """From one quantity on three grids, each twice as fine as the next, to its limit and a band of error.
 
 Richardson's extrapolation and the grid convergence index (P. J. Roache, J. Fluids Eng. 116, 405, 1994; I. B. Celik et
-al., J. Fluids Eng. 130, 078001, 2008). The band bounds the error of the discretisation alone: nothing is said of the
+al., J. Fluids Eng. 130, 078001, 2008); where three values have no order, thrice their range (L. Eca and M. Hoekstra, J.
+Comput. Phys. 262, 104, 2014). The band bounds the error of the discretisation alone: nothing is said of the
 model, of its parameters, or of the threshold that defines a front.
 """
 
@@ -22,14 +23,17 @@ LOWEST_ORDER = 0.3
 ROUND_OFF = 64.0
 """Differences of so many units in the last place are no differences: the solver's own margin for sums."""
 
+SPREAD = 3.0
+"""Eca and Hoekstra's factor of the range of three values that have no order."""
+
 CONVERGING, NOT_CONVERGED = "converging", "not converged"
 
 
 class Estimate(NamedTuple):
     """Observed order, estimate of the limit, half-width of the band about the finest value, and a word on it all.
 
-    What does not exist is NaN: limit and band unless `convergence` is 'converging', order also where the two finest
-    values agree to round-off or the differences change sign.
+    What does not exist is NaN: the limit unless `convergence` is 'converging', the order where the two finest values
+    agree to round-off or the differences change sign, everything where a value is missing.
     """
 
     order: float
@@ -58,10 +62,10 @@ def estimate(
     scale: size of the numbers from which the quantity was a difference, such as the depth of water for a displacement
     of its surface; with `dtype`, that of the run, it tells what is round-off.
 
-    Differences that change sign, or that shrink slower than h^0.3 or not at all, are 'not converged', without limit
-    and band: an oscillation has no order, and its size is no bound on what finer grids would show. Where the two
+    Differences that change sign, or that shrink slower than h^0.3 or not at all, are 'not converged', without a limit,
+    and the band is thrice the range of the values: small where only a last digit still moves. Where the two
     finest values agree to round-off p is beyond telling: 'converging', the limit is f1, and q the formal order, so
-    that the band vanishes where all three agree. A value that is not finite is 'not converged'.
+    that the band vanishes where all three agree. A value that is not finite is 'not converged', without a band.
     """
     if not all(map(math.isfinite, (f1, f2, f3))):
         return UNKNOWN
@@ -69,11 +73,9 @@ def estimate(
     if abs(last) <= ROUND_OFF * float(np.finfo(dtype).eps) * max(abs(f1), abs(f2), scale):
         return Estimate(math.nan, f1, _band(before, formal), CONVERGING)
     ratio = before / last
-    if ratio <= 0:
-        return UNKNOWN
-    order = math.log(ratio, RATIO)
-    if order < LOWEST_ORDER:
-        return Estimate(order, math.nan, math.nan, NOT_CONVERGED)
+    order = math.log(ratio, RATIO) if ratio > 0 else math.nan
+    if not order >= LOWEST_ORDER:
+        return Estimate(order, math.nan, SPREAD * (max(f1, f2, f3) - min(f1, f2, f3)), NOT_CONVERGED)
     return Estimate(order, f1 - last / (ratio - 1), _band(before, min(order, formal)), CONVERGING)
 
 
