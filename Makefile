@@ -30,6 +30,10 @@ test: $(READY)  ## set up, then lint, format and every test
 bench: $(READY)  ## measure speed beside a C reference, cost growth, start-up; tables and figures in results/bench
 	$(BIN)/python benchmarks/run.py
 
+.PHONY: bench-peers
+bench-peers: $(READY)  ## run GeoClaw and PyClaw beside subslide (builds them once; needs gfortran and LAPACK)
+	@$(BIN)/python benchmarks/peers/run.py
+
 setup: $(READY)  ## set up alone: .venv with the locked packages and this one
 
 $(READY): requirements.lock pyproject.toml
