@@ -27,3 +27,32 @@ rule tables:
         results=RESULTS,
     shell:
         "subslide tables {params.results:q} > {log:q} 2>&1"
+
+
+# What the paper says, held against both kinds of numerics.
+CLAIMS = []
+if {"paper", "resolved"} <= {label for label, _ in STUDY.runs}:
+    CLAIMS = [RESULTS / "tables/claims.csv"]
+
+    rule claims:
+        input:
+            TABLES,
+        output:
+            report(
+                CLAIMS,
+                caption="../report/claims.rst",
+                category="6 The paper's claims",
+                labels={"figure": "Table of claims"},
+            ),
+        log:
+            RESULTS / "logs/claims.log",
+        benchmark:
+            RESULTS / "benchmarks/claims.tsv"
+        resources:
+            mem_mb=1000,
+            runtime=10,
+        params:
+            sources=source_hash("figure"),
+            results=RESULTS,
+        shell:
+            "subslide claims {params.results:q} > {log:q} 2>&1"
