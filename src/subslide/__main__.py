@@ -152,12 +152,12 @@ def figure(name, results, output):
 def claims(results):
     """Hold what the source paper says against a study's tables; RESULTS is its folder, such as results/paper.
 
-    Writes RESULTS/tables/claims.csv and prints it as text.
+    Writes RESULTS/tables/claims.csv and claims.html, and prints the same as text.
     """
     from subslide import claims as claims_of
 
-    path, text = claims_of.write(Path(results))
-    click.echo(f"{text}\n\n{path}")
+    paths, text = claims_of.write(Path(results))
+    click.echo("\n".join([text, "", *map(str, paths)]))
 
 
 @cli.command()

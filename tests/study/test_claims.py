@@ -8,6 +8,7 @@ import pytest
 
 from subslide import claims, laboratory
 from subslide.__main__ import main
+from subslide.claims import page
 from subslide.claims.evidence import PAPER_TIMES, THRESHOLDS, WAVES, Evidence
 
 DEPTHS, RATIOS = (1.0, 2.0, 10.0), (0.0, 0.2, 0.4, 0.6, 0.8)
@@ -192,3 +193,11 @@ def test_the_text_holds_every_claim_and_verdict():
     assert all(words in text for words in table["claim"])
     assert text.count("SUPPORTED (as computed") == 2 * len(table)
     assert max(map(len, text.splitlines())) <= 110
+
+
+def test_the_page_holds_every_claim_and_escapes_what_it_shows():
+    table = claims.judged(study(band=1e-5))
+    text = page.html(table, claims.KINDS)
+    assert text.count("<tr>") == len(table) + 1
+    assert text.count("<b>supported</b>") == (table.filter(like="_verdict") == "supported").sum().sum()
+    assert "r &gt; 0" in text

@@ -10,7 +10,7 @@ from pathlib import Path
 import pandas as pd
 
 from subslide.atomic import write_text
-from subslide.claims import grains, surface
+from subslide.claims import grains, page, surface
 from subslide.claims.evidence import Evidence
 from subslide.claims.verdicts import OPEN, REFUTED, SUPPORTED
 from subslide.results import Results
@@ -52,8 +52,8 @@ def judged(results: Results) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=list(COLUMNS), dtype=object).fillna("")
 
 
-def write(folder: Path) -> tuple[Path, str]:
-    """Path of the table of claims of the study in `folder`, newly written, and the same as text."""
+def write(folder: Path) -> tuple[list[Path], str]:
+    """Paths of the table of claims of the study in `folder` and of its page, newly written, and the same as text."""
     if not (folder / "tables" / "runs.csv").is_file():
         raise ConfigError(f"{folder}: it has no tables/runs.csv; allowed: the folder of a finished study")
     table = judged(Results(folder))
@@ -61,9 +61,10 @@ def write(folder: Path) -> tuple[Path, str]:
         raise ConfigError(
             f"{folder}: it has no runs that a claim speaks of; allowed: a study with numerics {' or '.join(KINDS)}"
         )
-    path = folder / "tables" / "claims.csv"
-    write_text(path, table.to_csv(index=False, lineterminator="\n"))
-    return path, text(table)
+    paths = [folder / "tables" / f"claims.{kind}" for kind in ("csv", "html")]
+    write_text(paths[0], table.to_csv(index=False, lineterminator="\n"))
+    write_text(paths[1], page.html(table, KINDS))
+    return paths, text(table)
 
 
 def text(table: pd.DataFrame, width: int = 110) -> str:

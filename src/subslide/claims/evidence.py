@@ -1,5 +1,6 @@
 """What a study's tables say of one kind of numerics: quantities over a_H and r, each with its band."""
 
+import functools
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +11,7 @@ from subslide.fields import FRONT_THRESHOLDS
 from subslide.points import RUN_KEYS
 
 THRESHOLDS = tuple(f"{100 * fraction:g}pc" for fraction in FRONT_THRESHOLDS)
+FRONT = f"x_front_{THRESHOLDS[0]}"
 WAVES = {"max_abs_eta": "whole box", "max_abs_eta_outside": "beyond R"}
 PAPER_TIMES = (0.08, 0.16, 0.24, 0.54)
 """Times (s) at which the paper gives fronts and waves, at its R of 0.0705 m; other R scale them by sqrt(R)."""
@@ -61,30 +63,34 @@ class Evidence:
         self.a_2 = float(runs["a_2"].iloc[0]) if len(runs) else np.nan
         self.height = self.a_2 * self.radius
         self.times = tuple(float(time * np.sqrt(self.radius / 0.0705)) for time in PAPER_TIMES)
-        found = results.bands
-        self._bands = found[found["id"].isin(self.runs["id"])]
-        self._series = results.series[results.series["id"].isin(self.runs["id"])]
+        ids, found, series = self.runs["id"], results.bands, results.series
+        self.banded = bool(found["id"].isin(ids).any())
+        found = found[found["id"].isin(ids) & (found["convergence"] == convergence.CONVERGING)]
+        self._bands = dict(iter(found.groupby("quantity")))
+        wanted = series["id"].isin(ids) & series["quantity"].isin([FRONT, *WAVES])
+        self._series = {
+            key: (rows["time"].to_numpy(), rows["value"].to_numpy())
+            for key, rows in series[wanted].groupby(["quantity", "id"])
+        }
 
-    @property
-    def banded(self) -> bool:
-        """Whether the study has bands."""
-        return not self._bands.empty
-
+    @functools.cache  # noqa: B019 - an Evidence lives as long as its table
     def length(self, threshold: str = THRESHOLDS[0]) -> Field:
         """Final length L_f (m); empty where grains still moved at the end of the run."""
         name = f"L_f_{threshold}"
         values = self.runs.set_index("id")[name].where(self.runs.set_index("id")["status"] == "ok")
         return self._field(values, self._band_of(name))
 
+    @functools.cache  # noqa: B019
     def at_time(self, quantity: str, time: float) -> Field:
         """A quantity of the series at a time (s)."""
-        series = self._series[self._series["quantity"] == quantity]
         values = {
-            name: np.interp(time * (1 - 1e-9), rows["time"], rows["value"], right=np.nan)
-            for name, rows in series.groupby("id")
+            name: np.interp(time * (1 - 1e-9), *self._series[quantity, name], right=np.nan)
+            for name in self.runs["id"]
+            if (quantity, name) in self._series
         }
         return self._field(pd.Series(values, dtype=float), self._band_of(quantity, time))
 
+    @functools.cache  # noqa: B019
     def wave(self, quantity: str) -> Field:
         """Largest max|eta| (m) among the paper's times, with the band of that one.
 
@@ -99,13 +105,15 @@ class Evidence:
 
     def arrival(self) -> Field:
         """Time (s) at which the front comes within 1 % of its final length; what L_f's band moves it is its band."""
-        quantity, length = f"x_front_{THRESHOLDS[0]}", self.length()
-        series = self._series[self._series["quantity"] == quantity]
+        length = self.length()
         values, bands = {}, {}
-        for name, rows in series.groupby("id"):
-            run = self.runs.set_index("id").loc[name]
+        for _, run in self.runs.iterrows():
+            name = run["id"]
+            if (FRONT, name) not in self._series:
+                continue
+            time, front = self._series[FRONT, name]
+            front = np.maximum.accumulate(front)
             final, band = length.at(run["a_H"], run["r"])
-            time, front = rows["time"].to_numpy(), np.maximum.accumulate(rows["value"].to_numpy())
             values[name], early, late = (
                 _first(time, front, ARRIVED * level) for level in (final, final - band, final + band)
             )
@@ -117,10 +125,11 @@ class Evidence:
         ids = self.runs["id"]
         if not self.banded:
             return pd.Series(0.0, ids)
-        rows = self._bands[self._bands["quantity"] == quantity]
+        rows = self._bands.get(quantity)
+        if rows is None:
+            return pd.Series(np.nan, ids)
         if time is not None:
             rows = rows[np.isclose(rows["time"].astype(float), time, rtol=1e-6)]
-        rows = rows[rows["convergence"] == convergence.CONVERGING]
         return rows.set_index("id")["band"].astype(float).reindex(ids)
 
     def _field(self, values: pd.Series, bands: pd.Series) -> Field:
