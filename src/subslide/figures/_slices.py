@@ -10,6 +10,12 @@ from subslide.figures import _style, _words
 
 PREFERRED = {
     "scene": "cylinder",
+    "scene_options": None,
+    "quantities": "all",
+    "friction": "coulomb",
+    "xi": None,
+    "delta_2": None,
+    "pouliquen_length": None,
     "a_2": 0.56,
     "delta": 32.0,
     "radius": 0.0705,
@@ -17,6 +23,8 @@ PREFERRED = {
     "numerics": "paper",
     "model": None,
     "scheme": "ifcph",
+    "front_speeds": None,
+    "wave_speeds": "exact",
     "order": max,
     "cells": max,
     "dtype": "float64",
