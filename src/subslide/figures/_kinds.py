@@ -80,8 +80,6 @@ def symbols(ax, kind, rows, look, x, unit, size=4.0):
         **mark,
         markeredgewidth=0,
         elinewidth=0.6 if kind.name == "paper" else 0.9,
-        capsize=2.4,
-        capthick=0.6 if kind.name == "paper" else 0.9,
         zorder=3,
     )
     ax.plot(x[~known], values[~known], **mark, markerfacecolor="white", markeredgewidth=0.7, zorder=3.2)
