@@ -32,6 +32,7 @@ rule all:
     input:
         rules.report.output,
         TABLES,
+        CLAIMS,
         RECORDS,
         CHECKSUMS,
         FIGURES,

@@ -148,6 +148,19 @@ def figure(name, results, output):
 
 
 @cli.command()
+@click.argument("results")
+def claims(results):
+    """Hold what the source paper says against a study's tables; RESULTS is its folder, such as results/paper.
+
+    Writes RESULTS/tables/claims.csv and claims.html, and prints the same as text.
+    """
+    from subslide import claims as claims_of
+
+    paths, text = claims_of.write(Path(results))
+    click.echo("\n".join([text, "", *map(str, paths)]))
+
+
+@cli.command()
 def docs():
     """Write the pages of documentation that follow from the code, in the repository that is the current folder."""
     from subslide import docs as pages_of

@@ -8,15 +8,15 @@ PACKAGE = Path(__file__).resolve().parent
 SOLVER = ("kernels", "models", "scenes", "exact", "diagnostics", "solver.py", "fields.py")
 """Parts whose code is compiled, or decides which code is."""
 
-DRAWING = ("figures", "drawing.py", "docs.py")
-"""Parts that only draw or describe what is solved: a change here never changes a record or a table."""
+DRAWING = ("figures", "drawing.py", "docs.py", "claims", "laboratory.py")
+"""Parts that only draw, judge or describe what is solved: a change here never changes a record or a table."""
 
 
 @functools.cache
 def source_hash(part: str = "results", figure: str = "") -> str:
     """Hash (12 hex digits) of the package's sources.
 
-    part: 'results' (all that can change a record or a table), 'solver' (the compiled part alone), or 'figure' (all
+    part: 'results' (all that can change a record or its tables), 'solver' (the compiled part alone), or 'figure' (all
     but the modules of other figures than `figure`).
     """
     digest = hashlib.sha256()

@@ -1,6 +1,6 @@
 """Pages of documentation that follow from the code, so that each fact has one place."""
 
-from subslide import bands, convergence, fields, scenes, schema, tables
+from subslide import bands, claims, convergence, fields, scenes, schema, tables
 
 CONFIG_PAGE, TABLES_PAGE = "config/README.md", "docs/tables.md"
 
@@ -151,6 +151,7 @@ def columns() -> str:
                 quantities,
             ),
             _section("bands.csv", _bands_text(), bands.COLUMNS),
+            _section("claims.csv", _claims_text(), claims.COLUMNS),
         )
     )
 
@@ -177,6 +178,18 @@ start.
 Quantities:
 
 {quantities}"""
+
+
+def _claims_text() -> str:
+    """What the table of claims holds, and how its verdicts are made."""
+    return f"""One row for each thing that sections 4 and 5 of the source paper say of its results, in studies with
+both numerics `paper` and `resolved`; `subslide claims results/<study>` writes it, claims.html beside it, and prints the
+same. Each is broken down into comparisons, such as L_f at one r against the next. `{claims.SUPPORTED}`: every one
+holds by more than the bands of the values compared; `{claims.REFUTED}`: one fails by more than that (or all fail, where
+the paper says that something happens somewhere); else `{claims.OPEN}`, also where a value that decides is not
+converged. Without bands numbers count as they are. A claim is left out where the study lacks what it needs. Judged are
+the runs that differ from the first of their numerics in a_H and r alone. Times have no bands of their own: that of the
+front's arrival is what the band of L_f moves it by."""
 
 
 def _section(title: str, text: str, rows: dict[str, tuple[str, str]]) -> str:

@@ -7,13 +7,20 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from made_up import MadeUpResults, grid
+from made_up import RESOLVED, MadeUpResults, grid
 
 
 @pytest.fixture(scope="session")
 def paper():
     """The paper's fifteen runs."""
     return MadeUpResults(grid((1, 2, 10), (0, 0.2, 0.4, 0.6, 0.8)))
+
+
+@pytest.fixture(scope="session")
+def both():
+    """The paper's fifteen runs with its numerics and resolved, with bands."""
+    values = ((1, 2, 10), (0, 0.2, 0.4, 0.6, 0.8))
+    return MadeUpResults(grid(*values) + grid(*values, **RESOLVED), bands=True)
 
 
 @pytest.fixture(scope="session")

@@ -28,13 +28,25 @@ DEFAULTS = {
 }
 
 
-class MadeUpResults:
-    """A study of runs with given values; `records` holds one dataset each."""
+RESOLVED = {"numerics": "resolved", "model": "auto", "order": 2, "cells": 800, "resolved_model": "radial"}
+"""What differs in runs with resolved numerics."""
+BANDED = ("L_f_1pc", "x_front_1pc", "max_abs_eta", "max_abs_eta_outside")
 
-    def __init__(self, runs):
+
+class MadeUpResults:
+    """A study of runs with given values; `records` holds one dataset each.
+
+    bands: whether it has bands: of one per cent when resolved, and none (not converged) with the paper's numerics.
+    """
+
+    def __init__(self, runs, bands=False):
         self.records = {f"p{k:012d}": made_up_run({**DEFAULTS, **values}) for k, values in enumerate(runs)}
         self.runs = pd.DataFrame({"id": key, **data.attrs["row"]} for key, data in self.records.items())
         self.series = pd.concat([tidy(key, data) for key, data in self.records.items()], ignore_index=True)
+        rows = (
+            [row for key, data in self.records.items() for row in made_up_bands(key, data)] if bands else []
+        )
+        self.bands = pd.DataFrame(rows, columns=["id", "quantity", "time", "value", "band", "convergence"])
 
     def select(self, **values):
         """Rows of the table of runs whose columns equal the given values."""
@@ -52,7 +64,7 @@ def made_up_run(row):
     x = (np.arange(row["cells"] // 2) + 0.5) * dx
     scale = np.sqrt(radius / 0.0705)
     rest = 0.2 * scale / np.sqrt(1 - row["r"])
-    final = radius * (1.9 + 0.1 * np.log(row["a_H"]) - 0.2 * row["r"])
+    final = radius * (1.9 + 0.1 * np.log(row["a_H"]) - 0.2 * row["r"]) * (1.1 if row["order"] == 2 else 1.0)
     failed = row["status"] == "diverged"
     time = np.linspace(0, row.pop("until", 0.6) * scale, 60)
     if failed:
@@ -93,6 +105,18 @@ def made_up_run(row):
         {"x": x, "front_threshold": thresholds},
         {"row": row},
     )
+
+
+def made_up_bands(name, data):
+    """Rows of the table of bands of a run: id, quantity, time, value, band, convergence."""
+    known = data.attrs["row"]["numerics"] == "resolved"
+    values = {("L_f_1pc", np.nan): float(data["L_f"][0])}
+    series = {"x_front_1pc": data["x_front"].values[0], **{key: data[key].values for key in BANDED[2:]}}
+    times = data["snapshot_time"].values[1:-1]
+    values |= {(key, t): np.interp(t, data["time"], entry) for key, entry in series.items() for t in times}
+    for (quantity, time), value in values.items():
+        band = 0.01 * abs(value) if known else np.nan
+        yield name, quantity, time, value, band, "converging" if known else "not converged"
 
 
 def depth(x, front, radius, height):

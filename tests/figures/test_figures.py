@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from made_up import MadeUpResults, grid
+from made_up import RESOLVED, MadeUpResults, grid
 
-from subslide import figures
-from subslide.figures import _slices, _style, _words, fig04_profiles_r0
+from subslide import figures, laboratory
+from subslide.figures import _slices, _style, _words
 
 NAMES = figures.names()
 CAPTIONS = Path(__file__).parents[2] / "workflow" / "report"
@@ -99,8 +99,8 @@ def test_every_run_of_a_slice_is_a_line(paper):
 
 
 def test_laboratory_law():
-    assert fig04_profiles_r0.law(0.56) == pytest.approx(1.6944)
-    assert fig04_profiles_r0.law(4.0) == pytest.approx(4.2)
+    assert laboratory.runout(0.56) == pytest.approx(1.6944)
+    assert laboratory.runout(4.0) == pytest.approx(4.2)
 
 
 def test_depth_at_the_laboratory_runout_is_measured(paper):
@@ -150,3 +150,54 @@ def test_the_papers_values_come_first(large):
 def test_a_study_without_the_run_gets_an_empty_figure():
     figure = draw("fig10_view3d", MadeUpResults(grid((1,), (0,)) + grid((2,), (0.4,))))
     assert "no such run (a_H = 1, r = 0.4)" in figure.get_suptitle()
+
+
+@pytest.mark.parametrize("name", ["fig06_fronts", "fig07_front_aH1_aH10", "fig08_max_eta"])
+def test_both_numerics_are_drawn_and_told_apart(name, both):
+    figure = draw(name, both)
+    curves = [line for line in seen(figure)[0].get_lines() if len(line.get_xdata()) > 10]
+    styles = {line.get_linestyle() for line in curves}
+    widths = {line.get_linewidth() for line in curves}
+    assert len(styles) == len(widths) == 2
+    legend = [text.get_text() for box in figure.legends for text in box.get_texts()]
+    assert any("first-order IFCPH, cells of 3 mm" in text for text in legend)
+    assert any("second-order IFCPH, cells of 0.75 mm" in text for text in legend)
+    assert "value that is not converged" in legend
+    assert "Also in this study" not in words(figure)
+
+
+def test_bands_are_bars_and_values_without_them_are_open(both):
+    ax = seen(draw("fig06_fronts", both))[3]
+    bars = [container for container in ax.containers if len(container.lines[0].get_xdata())]
+    assert len(bars) == 15  # every resolved length, and none with the paper's numerics
+    low, high = bars[0].lines[2][0].get_segments()[0][:, 1]
+    assert high - low == pytest.approx(0.02 * bars[0].lines[0].get_ydata()[0])
+    hollow = [
+        line for line in ax.get_lines() if line.get_markerfacecolor() == "white" and len(line.get_xdata())
+    ]
+    assert len(hollow) == 15
+
+
+def test_notes_say_what_the_tables_say(both):
+    text = words(draw("fig06_fronts", both))
+    lengths = both.runs.set_index(["numerics", "a_H", "r"])["L_f_1pc"]
+    short = 100 * (1 - lengths["paper"] / lengths["resolved"])
+    assert f"{short.iloc[0]:.3g} % short of the resolved" in text
+    dry = lengths["paper"].xs(0.0, level="r")
+    assert f"by {100 * np.ptp(dry) / dry.max():.2g} % with the paper's numerics" in text
+    assert "paper's numerics 75 of 75, resolved 0 of 75 fronts and lengths" in text
+
+
+@pytest.mark.parametrize("name", ["fig04_profiles_r0", "fig09_surface"])
+def test_other_figures_draw_the_papers_numerics_and_name_the_rest(name, both):
+    text = words(draw(name, both))
+    assert "first-order IFCPH, cells of 3 mm" in text
+    assert "not shown here: numerics = resolved." in text
+
+
+@pytest.mark.parametrize("name", ["fig06_fronts", "fig07_front_aH1_aH10", "fig08_max_eta"])
+def test_one_kind_with_bands(name):
+    values = grid((1, 2, 10), (0, 0.4, 0.8), **RESOLVED)
+    figure = draw(name, MadeUpResults(values, bands=True))
+    assert seen(figure)
+    assert "paper's numerics" not in words(figure)

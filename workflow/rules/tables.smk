@@ -27,3 +27,38 @@ rule tables:
         results=RESULTS,
     shell:
         "subslide tables {params.results:q} > {log:q} 2>&1"
+
+
+# What the paper says, held against both kinds of numerics.
+CLAIMS = []
+if {"paper", "resolved"} <= {label for label, _ in STUDY.runs}:
+    CLAIMS = [RESULTS / f"tables/claims.{kind}" for kind in ("html", "csv")]
+
+    rule claims:
+        input:
+            TABLES,
+        output:
+            report(
+                CLAIMS[0],
+                caption="../report/claims.rst",
+                category="6 The paper's claims",
+                labels={"figure": "The paper's claims, held against this study"},
+            ),
+            report(
+                CLAIMS[1],
+                caption="../report/claims.rst",
+                category="6 The paper's claims",
+                labels={"figure": "Table of claims"},
+            ),
+        log:
+            RESULTS / "logs/claims.log",
+        benchmark:
+            RESULTS / "benchmarks/claims.tsv"
+        resources:
+            mem_mb=1000,
+            runtime=10,
+        params:
+            sources=source_hash("figure"),
+            results=RESULTS,
+        shell:
+            "subslide claims {params.results:q} > {log:q} 2>&1"

@@ -10,6 +10,12 @@ from subslide.figures import _style, _words
 
 PREFERRED = {
     "scene": "cylinder",
+    "scene_options": None,
+    "quantities": "all",
+    "friction": "coulomb",
+    "xi": None,
+    "delta_2": None,
+    "pouliquen_length": None,
     "a_2": 0.56,
     "delta": 32.0,
     "radius": 0.0705,
@@ -17,6 +23,8 @@ PREFERRED = {
     "numerics": "paper",
     "model": None,
     "scheme": "ifcph",
+    "front_speeds": None,
+    "wave_speeds": "exact",
     "order": max,
     "cells": max,
     "dtype": "float64",
@@ -41,12 +49,13 @@ class Slice(NamedTuple):
     notes: list[str]
 
 
-def cut(results, by=("a_H", "r"), most=None, **wanted):
+def cut(results, by=("a_H", "r"), most=None, numerics=None, **wanted):
     """Return the runs that differ only in `by`, sorted by it.
 
-    wanted: for a key, the values to keep. most: for a key of `by`, how many values to show (evenly picked).
+    numerics: the only kind looked at, if given. wanted: for a key, the values to keep. most: for a key of `by`, how
+    many values to show (evenly picked).
     """
-    runs = results.runs
+    runs = results.runs if numerics is None else results.runs[results.runs["numerics"] == numerics]
     for key, values in wanted.items():
         runs = runs[
             np.isclose(runs[key].astype(float).to_numpy()[:, None], np.atleast_1d(values)).any(axis=1)
@@ -165,12 +174,21 @@ def _values(key, column):
 
 def _about(runs, by):
     """Return what the runs share, for the line below a figure's title."""
+    return f"{shared(runs, by)}, {solver(runs)}"
+
+
+def shared(runs, by=()):
+    """Return the column that all runs share, in words."""
     row = runs.iloc[0]
     words = [_words.equation(key, row[key]) for key in ("a_2", "delta") if key not in by]
     radius = _words.length_unit(row["radius"])
-    words.append(f"$R$ = {row['radius'] * radius.factor:.4g} {radius.name}")
+    return ", ".join([*words, f"$R$ = {row['radius'] * radius.factor:.4g} {radius.name}"])
+
+
+def solver(runs):
+    """Return how the runs were solved, in words."""
+    row = runs.iloc[0]
     cell = _words.length_unit(row["dx"])
     scheme = f"{ORDERS[int(row['order'])]} {str(row['scheme']).upper()}"
-    words.append(f"{scheme}, cells of {row['dx'] * cell.factor:.3g} {cell.name}")
     models = ", ".join(sorted(runs["resolved_model"].astype(str).unique()))
-    return ", ".join(words) + f" ({models})"
+    return f"{scheme}, cells of {row['dx'] * cell.factor:.3g} {cell.name} ({models})"

@@ -94,12 +94,13 @@ def line(look):
     return {key: look[key] for key in ("color", "linestyle")}
 
 
-def handles(looks, key, markers=True):
-    """Return the handles of a legend, one for each value of `key`."""
+def handles(looks, key, markers=True, dashes=True):
+    """Return the entries of a legend, (handle, label), one for each value of `key`."""
     options = {"markeredgewidth": 0} if markers else {"marker": ""}
+    if not dashes:
+        options["linestyle"] = "-"
     return [
-        Line2D([], [], **{**look, **options}, label=_words.equation(key, value))
-        for value, look in looks.items()
+        (Line2D([], [], **{**look, **options}), _words.equation(key, value)) for value, look in looks.items()
     ]
 
 
@@ -113,20 +114,26 @@ def bottom_row(axes, columns):
     return axes[max(len(axes) - columns, 0) :]
 
 
-def finish(figure, title, about, notes=(), handles=None, columns=5):
-    """Return the figure with its title, what all its runs share, one legend below and notes below that."""
+def finish(figure, title, about, notes=(), entries=None, columns=5, more=()):
+    """Return the figure with its title, what all its runs share, a legend below and notes below that.
+
+    entries: (handle, label) pairs of the legend; more: further ones, in rows of two below.
+    """
     inch = 1 / figure.get_figheight()
     figure.suptitle(title, y=1 - 0.05 * inch, va="top", fontweight="bold")
     figure.text(0.5, 1 - 0.25 * inch, about, ha="center", va="top", fontsize=8, color="0.3")
     below = 0.0
-    if handles:
-        columns = min(columns, len(handles))
-        below = 0.17 * -(-len(handles) // columns) + 0.1
+    for part, across in ((more, 2), (entries, columns)):
+        if not part:
+            continue
+        across = min(across, len(part))
         frame = {
-            "bbox_to_anchor": (0, 0, 1, 1),
+            "bbox_to_anchor": (0, below * inch, 1, 1),
             "bbox_transform": figure.transFigure,
         }  # unlike the default, the same place when saved "tight"
-        figure.legend(handles=handles, loc="lower center", ncols=columns, borderaxespad=0, **frame)
+        figure.legend(*zip(*part, strict=True), loc="lower center", ncols=across, borderaxespad=0, **frame)
+        below += 0.17 * -(-len(part) // across) + 0.02
+    below += 0.08 if below else 0.0
     figure.get_layout_engine().set(rect=(0, below * inch, 1, 1 - (below + 0.45) * inch))
     text = "\n".join(line for note in notes for line in _wrapped(note, 138))
     figure.text(0.01, -0.05 * inch, text, ha="left", va="top", fontsize=7, color="0.25", linespacing=1.35)

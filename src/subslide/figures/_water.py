@@ -1,13 +1,13 @@
 """Runs that have a water surface, and when waves reach the edge of the box."""
 
 import numpy as np
+import pandas as pd
+
+from subslide.figures import _kinds, _slices, _words
 
 BOX = 0.3 / 0.0705
 """Half-width of the paper's box over R: where displacements of the surface are watched."""
-NOT_CONVERGED = (
-    "Not converged: at first order with cells of 3 mm the paper's columns raise waves about two to three times too low "
-    "beyond $R$ at 80 and 160 ms; where they meet on the axis the peak is lower still and grows with resolution."
-)
+OUTSIDE = "max_abs_eta_outside"
 
 
 def wet(runs):
@@ -29,3 +29,44 @@ def edge_time(row):
     """Return when (s) the first wave, from R at sqrt(g (H1 + H2)), is at the edge of the box."""
     depth = row["a_2"] * row["radius"] * (1 + row["a_H"])
     return (BOX - 1) * row["radius"] / np.sqrt(row["g"] * depth)
+
+
+def convergence(results, found, times, unit):
+    """Return the notes on how far waves are from converged at some times (s), in numbers of these runs."""
+    notes = _kinds.note(found, ("max_abs_eta", OUTSIDE), "values")
+    ratios = {time: _kinds.ratios(found, lambda kind, t=time: _heights(results, kind, t)) for time in times}
+    words = [f"{_kinds.percent(*r)} at {_words.moment(time, unit)}" for time, r in ratios.items() if r]
+    if words:
+        notes.append(
+            "Beyond $R$ and for $r>0$, the height of waves with the paper's numerics is, of the resolved, "
+            f"{' and '.join(words)}."
+        )
+    elif any(_slices.first_order(kind.runs) for kind in found):
+        notes.append(
+            "Not converged: at first order waves are too low, by an amount that needs a finer answer to tell."
+        )
+    return notes
+
+
+def beside(results, chosen, times, unit):
+    """Return the notes on the convergence of waves in a figure that draws one kind of numerics alone.
+
+    chosen: the slice it draws. With the paper's numerics and a resolved answer in the study, they are compared.
+    """
+    keep = {"a_H": chosen.runs["a_H"].unique(), "r": chosen.runs["r"].unique()}
+    found = _kinds.kinds(results, **keep) if "paper" in set(chosen.runs["numerics"]) else []
+    if len(found) < 2:
+        found = [_kinds.Kind("", chosen, results.bands[:0])]
+    return [one for one in convergence(results, found, times, unit) if not one.startswith("Bars")]
+
+
+def _heights(results, kind, time):
+    """Return max|eta| (m) beyond R at a time (s) by (a_H, r), of runs with water and r > 0."""
+    runs, _ = wet(kind.runs[kind.runs["r"] > 0])
+    curves = _slices.curves(results, runs, OUTSIDE)
+    heights = {
+        (row["a_H"], row["r"]): np.interp(time, *curves[row["id"]], right=np.nan)
+        for _, row in runs.iterrows()
+        if row["id"] in curves
+    }
+    return pd.Series(heights, dtype=float)

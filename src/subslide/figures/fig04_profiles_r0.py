@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from subslide import fields
+from subslide import fields, laboratory
 from subslide.figures import _profiles, _slices, _style, _words
 
 TITLE = "Profiles of the grains at r = 0, beside the laboratory runout law"
@@ -14,18 +14,13 @@ FOOT = 25.0
 LAW = {"color": "black", "linewidth": 2.2, "zorder": 1.5}
 
 
-def law(a_2):
-    """Return the runout over R of dry columns in the laboratory; Lube et al., J. Fluid Mech. 508 (2004)."""
-    return 1 + 1.24 * a_2 if a_2 < 1.7 else 1 + 1.6 * np.sqrt(a_2)
-
-
 @_style.styled
 def draw(results):
     """Return the figure: all profiles of one run, and the foot of the deposit for each a_H."""
     chosen = _slices.cut(results, by=("a_H",), most={"a_H": 4}, r=0)
     runs = chosen.runs
     radius, height = _slices.sizes(runs)
-    runout = law(runs.iloc[0]["a_2"])
+    runout = laboratory.runout(runs.iloc[0]["a_2"])
     records = {row["a_H"]: results.record(row["id"]) for _, row in runs.iterrows()}
     shapes = {a_H: _profiles.profiles(record, "h2") for a_H, record in records.items()}
 

@@ -62,8 +62,8 @@ def draw(results):
     ]
     if not times:
         notes = ["No run of this study has a profile of the water surface."]
-    elif _slices.first_order(shown):
-        notes.append(_water.NOT_CONVERGED)
+    elif len(shown):
+        notes += _water.beside(results, chosen, times[:2], t_unit)
     if missing:
         notes.append(f"No profile: {'; '.join(missing)}.")
     notes += [*left_out, *dry, *chosen.notes, *_slices.trouble(shown)]

@@ -81,8 +81,8 @@ def draw(results):
         f"of the water "
         f"surface {scale} times more."
     ]
-    if largest > 0 and _slices.first_order(chosen.runs):
-        notes.append(_water.NOT_CONVERGED)
+    if largest > 0:
+        notes += _water.beside(results, chosen, times[:2], t_unit)
     title = f"Grains and water surface, {_words.equation('r', 0.4)}, {_words.equation('a_H', 1)}"
     notes += [*dry, *chosen.notes, *_slices.trouble(chosen.runs)]
     return _style.finish(figure, title, chosen.about, notes)

@@ -1,0 +1,155 @@
+"""What a study's tables say of one kind of numerics: quantities over a_H and r, each with its band."""
+
+import functools
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from subslide import convergence
+from subslide.fields import FRONT_THRESHOLDS
+from subslide.points import RUN_KEYS
+
+THRESHOLDS = tuple(f"{100 * fraction:g}pc" for fraction in FRONT_THRESHOLDS)
+FRONT = f"x_front_{THRESHOLDS[0]}"
+WAVES = {"max_abs_eta": "whole box", "max_abs_eta_outside": "beyond R"}
+PAPER_TIMES = (0.08, 0.16, 0.24, 0.54)
+"""Times (s) at which the paper gives fronts and waves, at its R of 0.0705 m; other R scale them by sqrt(R)."""
+ARRIVED = 0.99
+"""Fraction of its final length at which a front counts as arrived: the last grains stop cell by cell."""
+
+
+SHALLOW, DEEP = 1.0, 10.0
+"""Depths a_H between which the paper draws its contrasts."""
+
+
+class Field(NamedTuple):
+    """A quantity over a_H (rows) and r (columns), and the half-width of its band, of the same unit.
+
+    The band is 0 in a study without bands, and NaN where a value is not converged.
+    """
+
+    value: pd.DataFrame
+    band: pd.DataFrame
+
+    def at(self, a_H: float, r: float) -> tuple[float, float]:
+        """Value and band of one run."""
+        return float(self.value.loc[a_H, r]), float(self.band.loc[a_H, r])
+
+    def ends(self) -> "Field | None":
+        """Only a_H = 1 and 10; None where the study lacks one."""
+        if not {SHALLOW, DEEP} <= set(self.value.index):
+            return None
+        return Field(self.value.loc[[SHALLOW, DEEP]], self.band.loc[[SHALLOW, DEEP]])
+
+    def submerged(self) -> "Field":
+        """Only r > 0: at r = 0 the water cannot act on the grains."""
+        keep = [r for r in self.value.columns if r > 0]
+        return Field(self.value[keep], self.band[keep])
+
+
+class Evidence:
+    """Tables of the runs of one kind of numerics that differ in a_H and r alone: those like the first of them."""
+
+    def __init__(self, results, numerics: str):
+        runs = results.runs[results.runs["numerics"] == numerics]
+        for key in RUN_KEYS:
+            if key in runs and key not in ("a_H", "r", "snapshot_times") and len(runs):
+                runs = runs[runs[key].astype(str) == str(runs[key].iloc[0])]
+        self.runs = runs.drop_duplicates(["a_H", "r"])
+        self.depths = sorted(self.runs["a_H"].unique())
+        self.ratios = sorted(self.runs["r"].unique())
+        self.radius = float(runs["radius"].iloc[0]) if len(runs) else np.nan
+        self.a_2 = float(runs["a_2"].iloc[0]) if len(runs) else np.nan
+        self.height = self.a_2 * self.radius
+        self.times = tuple(float(time * np.sqrt(self.radius / 0.0705)) for time in PAPER_TIMES)
+        ids, found, series = self.runs["id"], results.bands, results.series
+        self.banded = bool(found["id"].isin(ids).any())
+        found = found[found["id"].isin(ids) & (found["convergence"] == convergence.CONVERGING)]
+        self._bands = dict(iter(found.groupby("quantity")))
+        wanted = series["id"].isin(ids) & series["quantity"].isin([FRONT, *WAVES])
+        self._series = {
+            key: (rows["time"].to_numpy(), rows["value"].to_numpy())
+            for key, rows in series[wanted].groupby(["quantity", "id"])
+        }
+
+    @functools.cache  # noqa: B019 - an Evidence lives as long as its table
+    def length(self, threshold: str = THRESHOLDS[0]) -> Field:
+        """Final length L_f (m); empty where grains still moved at the end of the run."""
+        name = f"L_f_{threshold}"
+        values = self.runs.set_index("id")[name].where(self.runs.set_index("id")["status"] == "ok")
+        return self._field(values, self._band_of(name))
+
+    @functools.cache  # noqa: B019
+    def at_time(self, quantity: str, time: float) -> Field:
+        """A quantity of the series at a time (s)."""
+        values = {
+            name: np.interp(time * (1 - 1e-9), *self._series[quantity, name], right=np.nan)
+            for name in self.runs["id"]
+            if (quantity, name) in self._series
+        }
+        return self._field(pd.Series(values, dtype=float), self._band_of(quantity, time))
+
+    @functools.cache  # noqa: B019
+    def wave(self, quantity: str) -> Field:
+        """Largest max|eta| (m) among the paper's times, with the band of that one.
+
+        The maximum over all time is no measure: at release the water beside the column leaps at once, and waves that
+        meet on the axis have no limit that a grid would reach.
+        """
+        found = [self.at_time(quantity, time) for time in self.times]
+        values, bands = (np.array([field[n].to_numpy(float) for field in found]) for n in (0, 1))
+        place = np.where(np.isnan(values), -np.inf, values).argmax(axis=0)[None]
+        like = {"index": self.depths, "columns": self.ratios}
+        return Field(*(pd.DataFrame(np.take_along_axis(x, place, 0)[0], **like) for x in (values, bands)))
+
+    def arrival(self) -> Field:
+        """Time (s) at which the front comes within 1 % of its final length; what L_f's band moves it is its band."""
+        length = self.length()
+        values, bands = {}, {}
+        for _, run in self.runs.iterrows():
+            name = run["id"]
+            if (FRONT, name) not in self._series:
+                continue
+            time, front = self._series[FRONT, name]
+            front = np.maximum.accumulate(front)
+            final, band = length.at(run["a_H"], run["r"])
+            values[name], early, late = (
+                _first(time, front, ARRIVED * level) for level in (final, final - band, final + band)
+            )
+            bands[name] = max(late - values[name], values[name] - early) if self.banded else 0.0
+        return self._field(pd.Series(values, dtype=float), pd.Series(bands, dtype=float))
+
+    def _band_of(self, quantity: str, time: float | None = None) -> pd.Series:
+        """Band of a quantity by id of the run: 0 in a study without bands, NaN where there is none."""
+        ids = self.runs["id"]
+        if not self.banded:
+            return pd.Series(0.0, ids)
+        rows = self._bands.get(quantity)
+        if rows is None:
+            return pd.Series(np.nan, ids)
+        if time is not None:
+            rows = rows[np.isclose(rows["time"].astype(float), time, rtol=1e-6)]
+        return rows.set_index("id")["band"].astype(float).reindex(ids)
+
+    def _field(self, values: pd.Series, bands: pd.Series) -> Field:
+        """Values and bands by id of the run, over a_H and r."""
+        keys = self.runs.set_index("id")[["a_H", "r"]]
+        table = keys.assign(value=values.reindex(keys.index), band=bands.reindex(keys.index))
+        shape = {"index": self.depths, "columns": self.ratios}
+        tables = (table.pivot(index="a_H", columns="r", values=name) for name in ("value", "band"))
+        return Field(*(one.reindex(**shape).astype(float) for one in tables))
+
+
+def _first(time: np.ndarray, rising: np.ndarray, level: float) -> float:
+    """Time at which a rising series first reaches a level, between samples; NaN if the level is none.
+
+    A level above all of the series is reached, as far as is known, at the time of its greatest value.
+    """
+    if not np.isfinite(level) or not np.isfinite(rising).any():
+        return np.nan
+    place = int(np.argmax(rising >= min(level, np.nanmax(rising))))
+    if place == 0 or rising[place] == rising[place - 1]:
+        return float(time[place])
+    part = (min(level, rising[place]) - rising[place - 1]) / (rising[place] - rising[place - 1])
+    return float(time[place - 1] + part * (time[place] - time[place - 1]))
