@@ -24,7 +24,7 @@ def as_said(a_H, r):
 
 
 def study(world=as_said, band=None, kinds=("paper", "resolved"), depths=DEPTHS, ratios=RATIOS, status="ok"):
-    """Tables of a study of a world. band: of all values, as a fraction (NaN: not converged); None: no bands."""
+    """Tables of a study of a world. band: of all values, as a fraction (NaN: there is none); None: no bands."""
     runs, series, bands = [], [], []
     for kind in kinds:
         for a_H in depths:

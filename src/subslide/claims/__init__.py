@@ -28,7 +28,7 @@ COLUMNS = {
         f"{column}{part}": ("", text)
         for kind, column in KINDS.items()
         for part, text in (
-            ("", f"numbers with numerics `{kind}`: ± is the band, nc a value that is not converged"),
+            ("", f"numbers with numerics `{kind}`: ± is the band, ±? a value without one"),
             ("_as_computed", "verdict on these numbers as they are"),
             ("_verdict", f"verdict beyond the bands: `{SUPPORTED}`, `{REFUTED}` or `{OPEN}`"),
         )

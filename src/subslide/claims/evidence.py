@@ -6,7 +6,6 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from subslide import convergence
 from subslide.fields import FRONT_THRESHOLDS
 from subslide.points import RUN_KEYS
 
@@ -26,7 +25,7 @@ SHALLOW, DEEP = 1.0, 10.0
 class Field(NamedTuple):
     """A quantity over a_H (rows) and r (columns), and the half-width of its band, of the same unit.
 
-    The band is 0 in a study without bands, and NaN where a value is not converged.
+    The band is 0 in a study without bands, and NaN where a value has none (a companion failed).
     """
 
     value: pd.DataFrame
@@ -65,7 +64,7 @@ class Evidence:
         self.times = tuple(float(time * np.sqrt(self.radius / 0.0705)) for time in PAPER_TIMES)
         ids, found, series = self.runs["id"], results.bands, results.series
         self.banded = bool(found["id"].isin(ids).any())
-        found = found[found["id"].isin(ids) & (found["convergence"] == convergence.CONVERGING)]
+        found = found[found["id"].isin(ids)]
         self._bands = dict(iter(found.groupby("quantity")))
         wanted = series["id"].isin(ids) & series["quantity"].isin([FRONT, *WAVES])
         self._series = {

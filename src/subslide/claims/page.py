@@ -11,8 +11,8 @@ STYLE = """body { font: 14px/1.4 sans-serif; margin: 1.5em; } table { border-col
 th, td { border: 1px solid #bbb; padding: 0.4em 0.6em; text-align: left; vertical-align: top; }
 small { color: #333; } p { max-width: 60em; }"""
 INTRODUCTION = """What sections 4 and 5 of the source paper say of its results, held against this study. Verdicts
-count what differs by more than the bands of discretisation error (±); a value marked nc is not converged and decides
-nothing. The verdict in brackets takes the numbers as they are."""
+count what differs by more than the bands of discretisation error (±; thrice the range of three grids where these show
+no order); a value without a band (±?) decides nothing. The verdict in brackets takes the numbers as they are."""
 
 
 def html(table: pd.DataFrame, kinds: dict[str, str]) -> str:

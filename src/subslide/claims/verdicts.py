@@ -17,7 +17,7 @@ MOST_NAMED = 3
 
 class Comparison(NamedTuple):
     """By how much a comparison holds (negative where it fails), the half-width of that margin's band (NaN where a
-    value is not converged), and where it was made, in words."""
+    value has none), and where it was made, in words."""
 
     margin: float
     band: float
@@ -47,7 +47,7 @@ class Finding(NamedTuple):
         sure, wrong, unknown = (int(n.sum()) for n in (margins > bands, margins < -bands, np.isnan(bands)))
         words = [self.numbers, f"holds in {int((margins > 0).sum())} of {total}"]
         if sure + wrong < total:
-            words[-1] += f" (beyond the bands {sure} hold, {wrong} fail; {unknown} not converged)"
+            words[-1] += f" (beyond the bands {sure} hold, {wrong} fail; {unknown} have none)"
         failed = sorted(
             (one for one in self.comparisons if one.margin < 0),
             key=lambda one: (not one.margin < -one.band, one.margin),
@@ -115,10 +115,10 @@ def outside(field: Field) -> list[Comparison]:
 
 
 def number(value: float, band: float, unit: float, digits: int = 3) -> str:
-    """A value and its band in units of `unit`: '2.13±0.006'; no band where it is 0, 'nc' where it is not converged."""
+    """A value and its band in units of `unit`: '2.13±0.006'; '±?' where there is no band."""
     text = f"{value / unit:#.{digits}g}".rstrip(".")
     if np.isnan(band):
-        return f"{text} nc"
+        return f"{text}±?"
     return f"{text}±{band / unit:.1g}" if band > 0 else text
 
 

@@ -115,7 +115,7 @@ def note(found, quantities, what):
         counts.append(f"{name}{lost} of {len(rows)}")
     return [
         "Bars: the band of discretisation error that three grids leave (bands.csv), where it exceeds the symbol; open "
-        f"symbols: not converged, no band: {', '.join(counts)} {what}."
+        f"symbols: not converged, without bar: {', '.join(counts)} {what}."
     ]
 
 
