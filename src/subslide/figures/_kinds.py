@@ -99,7 +99,7 @@ def entries(found):
         plain = {"color": "0.25", "marker": "o", "linestyle": "", "markersize": 4, "markeredgewidth": 0.8}
         bar = Line2D([], [], **{**plain, "marker": "|", "markersize": 10})
         lines += [((bar, Line2D([], [], **plain)), "value with its band of grid error")]
-        lines += [(Line2D([], [], **plain, markerfacecolor="white"), "value that is not converged")]
+        lines += [(Line2D([], [], **plain, markerfacecolor="white"), "value whose three grids give no order")]
     return lines
 
 
@@ -115,7 +115,7 @@ def note(found, quantities, what):
         counts.append(f"{name}{lost} of {len(rows)}")
     return [
         "Bars: the band of discretisation error that three grids leave (bands.csv), where it exceeds the symbol; open "
-        f"symbols: not converged, without bar: {', '.join(counts)} {what}."
+        f"symbols: three grids give no order, without bar: {', '.join(counts)} {what}."
     ]
 
 
