@@ -1,6 +1,6 @@
 """A pile no steeper than friction allows, under a flat surface: it stays as it is (Theorem 3.1 of the paper)."""
 
-DEFAULTS = {"steepness": 0.95}
+DEFAULTS = {"shape": "cone", "angle": 0.0, "steepness": 0.95}
 """Options of the scene that a point leaves out."""
 
 

@@ -7,7 +7,7 @@ from matplotlib.ticker import NullFormatter, ScalarFormatter
 from subslide.figures import _style, _verify, _words
 
 TITLE = "Errors against exact solutions"
-CATEGORY = "6 Verification"
+CATEGORY = "7 Verification"
 NEEDS = {"scene": ("dam_break", "paraboloid", "standing_wave")}
 COLUMNS = 3
 

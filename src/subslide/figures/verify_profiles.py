@@ -7,7 +7,7 @@ from subslide.figures import _slices, _style, _verify, _words
 from subslide.points import RUN_KEYS, from_dict
 
 TITLE = "Profiles against exact solutions"
-CATEGORY = "6 Verification"
+CATEGORY = "7 Verification"
 NEEDS = {"scene": ("dam_break", "paraboloid", "standing_wave")}
 COLUMNS = 3
 LOOKS = {
