@@ -159,7 +159,9 @@ def verify(results, output):
         try:
             page = Path(output).read_text(encoding="utf-8")
         except FileNotFoundError:
-            raise ConfigError(f"--output: {output}: there is no such file; allowed: a page to renew") from None
+            raise ConfigError(
+                f"--output: {output}: there is no such file; allowed: a page to renew"
+            ) from None
         write_text(output, verification.page(page, Path(results)))
     for line in missed:
         click.echo(f"subslide: required, but {line.verdict}: {', '.join(line.words()[:4])}", err=True)

@@ -34,15 +34,18 @@ def draw(results):
         ax.tick_params(axis="x", labelbottom=True)
     for ax in _style.bottom_row(axes, COLUMNS):
         ax.set_xlabel(f"d$x$ ({unit.name})")
-    handles = [Line2D([], [], **_look(looks[s], 2), label=f"{s.upper()}, order 2") for s in schemes]
-    handles += [Line2D([], [], **_look(looks[s], 1), label=f"{s.upper()}, order 1") for s in schemes]
+    entries = [
+        (Line2D([], [], **_look(looks[scheme], order)), f"{scheme.upper()}, order {order}")
+        for order in (2, 1)
+        for scheme in schemes
+    ]
     notes = [
         "Error: mean over cells (over rings by their area in round cases) of |solved - exact|, over the mean depth, or "
         "for waves over their amplitude. Depth of the grains, or of the water where it is alone. Grey: slopes 1 and 2. "
         "Lines that lie on each other are solvers that agree."
     ]
     return _style.finish(
-        figure, TITLE, "a panel for each case, a line for each solver and order", notes, handles, 5
+        figure, TITLE, "a panel for each case, a line for each solver and order", notes, entries, 5
     )
 
 

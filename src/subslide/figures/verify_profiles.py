@@ -36,9 +36,9 @@ def draw(results):
     for ax in _style.bottom_row(axes, COLUMNS):
         ax.set_xlabel("$x/R$")
     words = {"coarse": "coarsest cells", "fine": "finest cells"}
-    handles = [Line2D([], [], color="0.75", linewidth=2.8, label="exact")]
-    handles += [
-        Line2D([], [], **look, label=f"{_slices.ORDERS[order]}, {words[grid]}")
+    entries = [(Line2D([], [], color="0.75", linewidth=2.8), "exact")]
+    entries += [
+        (Line2D([], [], **look), f"{_slices.ORDERS[order]}, {words[grid]}")
         for (order, grid), look in LOOKS.items()
     ]
     notes = [
@@ -46,7 +46,7 @@ def draw(results):
         "Where one line is seen the others lie under it; verify_orders shows by how much they differ."
     ]
     return _style.finish(
-        figure, TITLE, f"{scheme.upper()}, coarsest and finest grid of each case", notes, handles, 3
+        figure, TITLE, f"{scheme.upper()}, coarsest and finest grid of each case", notes, entries, 3
     )
 
 
