@@ -34,6 +34,11 @@ bench: $(READY)  ## measure speed beside a C reference, cost growth, start-up; t
 bench-peers: $(READY)  ## run GeoClaw and PyClaw beside subslide (builds them once; needs gfortran and LAPACK)
 	@$(BIN)/python benchmarks/peers/run.py
 
+.PHONY: verify
+verify: $(READY)  ## run the study of exact solutions and hold the required orders of accuracy
+	@$(BIN)/snakemake --configfile config/accuracy.yaml --cores "$$CORES"
+	@$(BIN)/subslide verify results/accuracy
+
 setup: $(READY)  ## set up alone: .venv with the locked packages and this one
 
 $(READY): requirements.lock pyproject.toml

@@ -3,7 +3,7 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from subslide import figures, ledger, source_hash
+from subslide import exact, figures, ledger, source_hash
 from subslide.config import make_study
 from subslide.schema import ConfigError
 

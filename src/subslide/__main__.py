@@ -134,6 +134,41 @@ def tables(results):
 
 
 @cli.command()
+@click.argument("results")
+def errors(results):
+    """Write the table of errors against exact solutions of a study; RESULTS is the study's folder."""
+    from subslide import errors as errors_of
+
+    click.echo(str(errors_of.write(Path(results))))
+
+
+@cli.command()
+@click.argument("results")
+@click.option("-o", "--output", metavar="FILE.md", help="page whose table of the last run is written anew")
+def verify(results, output):
+    """Print errors and observed orders of a study with exact solutions, such as results/accuracy.
+
+    Exit status: 0 if every required order is reached and grains at rest are still; 1 if not; 2 for bad input.
+    """
+    from subslide import verification
+    from subslide.atomic import write_text
+
+    text, missed = verification.report(Path(results))
+    click.echo(text)
+    if output:
+        try:
+            page = Path(output).read_text(encoding="utf-8")
+        except FileNotFoundError:
+            raise ConfigError(
+                f"--output: {output}: there is no such file; allowed: a page to renew"
+            ) from None
+        write_text(output, verification.page(page, Path(results)))
+    for line in missed:
+        click.echo(f"subslide: required, but {line.verdict}: {', '.join(line.words()[:4])}", err=True)
+    return FAULT if missed else 0
+
+
+@cli.command()
 @click.argument("name")
 @click.option(
     "--results", required=True, metavar="FOLDER", help="folder of a study with its tables and records"

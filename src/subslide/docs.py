@@ -1,6 +1,6 @@
 """Pages of documentation that follow from the code, so that each fact has one place."""
 
-from subslide import bands, claims, convergence, fields, scenes, schema, tables
+from subslide import bands, claims, convergence, errors, fields, scenes, schema, tables
 
 CONFIG_PAGE, TABLES_PAGE = "config/README.md", "docs/tables.md"
 
@@ -152,6 +152,7 @@ def columns() -> str:
             ),
             _section("bands.csv", _bands_text(), bands.COLUMNS),
             _section("claims.csv", _claims_text(), claims.COLUMNS),
+            _section("errors.csv", _errors_text(), errors.COLUMNS),
         )
     )
 
@@ -190,6 +191,23 @@ the paper says that something happens somewhere); else `{claims.OPEN}`, also whe
 converged. Without bands numbers count as they are. A claim is left out where the study lacks what it needs. Judged are
 the runs that differ from the first of their numerics in a_H and r alone. Times have no bands of their own: that of the
 front's arrival is what the band of L_f moves it by."""
+
+
+def _errors_text() -> str:
+    """What the table of errors holds."""
+    quantities = "\n".join(f"- `{name}`: {text}" for name, text in errors.QUANTITIES.items())
+    verdicts = "\n".join(f"- `{name}`: {text}" for name, text in errors.VERDICTS.items())
+    return f"""One row for each run, quantity and time with a known answer, in studies that have a scene with an exact
+solution. Times are those of `snapshot_times` after the start, and `t_end` where it is a time. Reasons for the expected
+orders: docs/verification.md.
+
+Quantities:
+
+{quantities}
+
+Verdicts:
+
+{verdicts}"""
 
 
 def _section(title: str, text: str, rows: dict[str, tuple[str, str]]) -> str:

@@ -56,6 +56,11 @@ class Results:
         path = self.folder / "tables" / "bands.csv"
         return pd.read_csv(path) if path.exists() else pd.DataFrame(columns=list(bands.COLUMNS))
 
+    @functools.cached_property
+    def errors(self) -> pd.DataFrame:
+        """Table of errors against exact solutions (tables/errors.csv), of a study that has any."""
+        return pd.read_csv(self.folder / "tables" / "errors.csv")
+
     def select(self, **values) -> pd.DataFrame:
         """Rows of the table of runs whose columns equal the given values; numbers to nine digits."""
         chosen = np.ones(len(self.runs), bool)

@@ -51,6 +51,8 @@ FORBIDDEN = {
     "bands": SOLVING | HEAVY,
     "convergence": SOLVING | STUDY | HEAVY | {"points", "schema"},
     "tables": SOLVING,
+    "errors": SOLVING,
+    "verification": SOLVING,
     "ledger": SOLVING | HEAVY,
     **{name: HEAVY for name in LIGHT},
 }

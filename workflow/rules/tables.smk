@@ -62,3 +62,33 @@ if {"paper", "resolved"} <= {label for label, _ in STUDY.runs}:
             results=RESULTS,
         shell:
             "subslide claims {params.results:q} > {log:q} 2>&1"
+
+
+# Errors, where a scene has an exact solution.
+if any(point.scene in exact.NAMES for point in STUDY.points):
+
+    rule errors:
+        input:
+            points=RESULTS / "points.json",
+            records=RECORDS,
+        output:
+            report(
+                RESULTS / "tables/errors.csv",
+                caption="../report/errors.rst",
+                category="5 Tables",
+                labels={"figure": "Errors against exact solutions"},
+            ),
+        log:
+            RESULTS / "logs/errors.log",
+        benchmark:
+            RESULTS / "benchmarks/errors.tsv"
+        resources:
+            mem_mb=2000,
+            runtime=60,
+        params:
+            sources=source_hash(),
+            results=RESULTS,
+        shell:
+            "subslide errors {params.results:q} > {log:q} 2>&1"
+
+    TABLES = [*TABLES, RESULTS / "tables/errors.csv"]

@@ -1,13 +1,23 @@
 """Formulas that judge the solver: one exact solution a file, for the scene of the same name.
 
 `solution(point, x, time)` returns profiles {"h2": m, "eta": m} at the places x (m) and the time (s), NaN where no
-exact solution is known. Functions beside it are in scaled variables unless they take g: lengths over R, depths over
-H2, speeds over sqrt(g H2).
+exact solution is known; or `stays(point)` returns whether the grains must not move at all. Functions beside it are in
+scaled variables unless they take g: lengths over R, depths over H2, speeds over sqrt(g H2).
 """
 
 import math
+from importlib import import_module
+from pathlib import Path
 
 import numpy as np
+
+NAMES = tuple(sorted(path.stem for path in Path(__file__).parent.glob("[a-z]*.py")))
+"""Scenes with an exact solution."""
+
+
+def load(name):
+    """Return the exact solution of the scene of that name."""
+    return import_module(f"{__name__}.{name}")
 
 
 def scaled(point, x, time):

@@ -61,6 +61,15 @@ def edge_position(point, time):
     return edge(t, friction_number(point)) * point.radius
 
 
+def edge_known(point, time):
+    """Return whether `edge_position` holds at the time (s): grains at r = 0 on a dry bed, within the box."""
+    own = {**DEFAULTS, **dict(point.scene_options)}
+    lone = (
+        own["layer"] == "grains" and own["downstream"] == 0 and point.r == 0 and point.friction == "coulomb"
+    )
+    return lone and edge_position(point, time) < half_box(point) * point.radius
+
+
 def solution(point, x, time):
     """Return h2 and eta (m) at x (m): of water alone; of grains at r = 0 without friction, whose water is not known.
 
