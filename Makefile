@@ -23,7 +23,7 @@ test: $(READY)  ## set up, then lint, format and every test
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/snakefmt --check Snakefile workflow
-	$(BIN)/subslide warm radial:1:float64 quarter:1:float64 plane:1:float64 one-layer:1:float64
+	$(BIN)/subslide warm radial:float64 one-layer:float64 quarter:float64 plane:float64 radial:float64:general
 	$(BIN)/python -m pytest -n auto --dist loadgroup
 
 .PHONY: bench

@@ -113,7 +113,7 @@ def batch(spec, threads, output):
 
 
 @cli.command()
-@click.argument("kernel", nargs=-1, required=True, metavar="MODEL:ORDER:DTYPE...")
+@click.argument("kernel", nargs=-1, required=True, metavar="MODEL:DTYPE[:general]...")
 def warm(kernel):
     """Compile the kernels of some models into the cache, so that jobs started together do not each compile."""
     from subslide import jobs

@@ -98,15 +98,23 @@ def read_batch(spec: str) -> list[Point]:
 
 
 def warm(kernels: tuple[str, ...]) -> Iterator[str]:
-    """Lines, one for each 'model:order:dtype' whose kernels are then in the cache: each solves a tiny run."""
-    for kernel in kernels:
-        parts = dict(zip(("model", "order", "dtype"), kernel.split(":"), strict=False))
-        values = {key: schema.checked(key, _value_of_text(text)) for key, text in parts.items()}
-        scene = {"scene": "dam_break", "boundary": "wall"} if values["model"] == "line" else {}
-        point = config.make_point({"r": 0, "cells": 20, "t_end": 0.01, **scene, **values})
-        from subslide import solver
+    """Lines, one for each 'model:dtype[:general]' whose kernels are then in the cache: each solves a tiny run."""
+    from subslide import solver
 
-        solver.solve(point)
+    for kernel in kernels:
+        model, *others = kernel.split(":")
+        dtype, general = (*others, "", "")[:2]
+        if general not in ("", "general"):
+            raise ConfigError(f"kernel: {kernel} is not allowed; allowed: MODEL:DTYPE or MODEL:DTYPE:general")
+        values = {
+            "model": schema.checked("model", model),
+            "dtype": schema.checked("dtype", dtype or "float64"),
+        }
+        scene = {"scene": "dam_break", "boundary": "wall"} if model == "line" else {}
+        scheme = "roe" if general else "ifcph"
+        solver.solve(
+            config.make_point({"r": 0, "cells": 20, "t_end": 0.01, "scheme": scheme, **scene, **values})
+        )
         yield f"compiled {kernel}"
 
 

@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 from subslide.atomic import write_json
-from subslide.config import Study, solved_model
+from subslide.config import Study
 from subslide.jobs import file_hash
+from subslide.models import choice
 from subslide.points import Point, to_dict
 
 SECONDS = (2.0, 60.0)
@@ -32,7 +33,7 @@ MOST_POINTS, MOST_BYTES = 250, 256e6
 
 
 class Plan(NamedTuple):
-    """For each batch that a study's points are in, by name: the kernels that it needs, as 'model:order:dtype'."""
+    """For each batch that a study's points are in, by name: the kernels that it needs, as 'model:dtype[:general]'."""
 
     batches: dict[str, str]
 
@@ -112,8 +113,10 @@ def split(points: list[Point]) -> list[list[Point]]:
 
 
 def kernels_of(point: Point) -> str:
-    """Name of the compiled code that a point needs: 'model:order:dtype'."""
-    return f"{solved_model(point)}:{point.order}:{point.dtype}"
+    """Name of the compiled code that a point needs: 'model:dtype', and ':general' where the lean one is too little."""
+    return f"{choice.resolve_model(point)}:{point.dtype}" + (
+        ":general" if choice.needs_general(point) else ""
+    )
 
 
 def cost(point: Point) -> float:
@@ -123,7 +126,7 @@ def cost(point: Point) -> float:
     """
     half = point.cells / 2
     cells, kind = {"quarter": (half**2, "planar"), "plane": (4 * half**2, "planar")}.get(
-        solved_model(point), (half, "axial")
+        choice.resolve_model(point), (half, "axial")
     )
     seconds = point.t_end or 0.54 * math.sqrt(point.radius / 0.0705)
     fastest = math.sqrt(point.g * point.a_2 * point.radius * (1 + point.a_H))

@@ -81,7 +81,7 @@ def test_bad_verbs_and_their_inputs(capsys):
     assert "did you mean 'run'?" in complaint(capsys, "rnu")
     assert "no such file" in complaint(capsys, "check", "absent.yaml")
     assert "no such file" in complaint(capsys, "batch", "absent.json", "-o", "x.nc")
-    assert "model: radal" in complaint(capsys, "warm", "radal:1:float64")
+    assert "model: radal" in complaint(capsys, "warm", "radal:float64")
     assert "nowhere" in complaint(capsys, "tables", "nowhere")
     assert "figure: absent" in complaint(capsys, "figure", "absent", "--results", ".", "-o", ".")
 

@@ -10,14 +10,9 @@ from ..kernels.friction import LAWS
 from ..kernels.viscosity import SCHEMES
 from ..kernels.waves import SPEEDS
 from .axial import Axial
-from .choice import geometry
+from .choice import geometry, needs_general
 from .grid import make_grid
 from .plane import Plane
-
-
-def needs_general(point):
-    """Return whether a point needs the general kernels: whatever the lean ones leave out for speed."""
-    return point.scheme == "roe" or point.wave_speeds != "exact" or point.friction != "coulomb"
 
 
 def scaled(point, layers, dx, dry_depth):

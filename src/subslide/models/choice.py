@@ -47,3 +47,8 @@ def geometry(model, point):
     if model == "one-layer":
         return "line" if scenes.symmetry(point) == "line" else "radius"
     return {"radial": "radius"}.get(model, model)
+
+
+def needs_general(point):
+    """Return whether a point needs the general kernels: whatever the lean ones leave out for speed."""
+    return point.scheme == "roe" or point.wave_speeds != "exact" or point.friction != "coulomb"
