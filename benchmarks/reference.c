@@ -32,7 +32,7 @@ static inline void hll(REAL s_l, REAL s_r, REAL *a0, REAL *a1)
 }
 
 /* in: h1 u1 h2 u2 at i, the same at j, lower and upper bound of the speeds in both cells, jump of h1 + h2, stuck (0 or
-   1). out: f1 m1 p1 f2 m2 p2. Each an array of n. exact_front: grains have speeds of their own at a dry edge. */
+   1). out: f1 m1 p1 f2 m2 p2. Each an array of n. exact_front: grains run onto a dry bed with the flux of a dam break. */
 void edge_fluxes(long n, REAL r, REAL dry_depth, int exact_front, const REAL *const *in, REAL *const *out)
 {
     const REAL *restrict h1_in = in[0], *restrict u1_in = in[1], *restrict h2_in = in[2], *restrict u2_in = in[3];
@@ -41,7 +41,7 @@ void edge_fluxes(long n, REAL r, REAL dry_depth, int exact_front, const REAL *co
     REAL *restrict f1 = out[0], *restrict m1 = out[1], *restrict p1 = out[2];
     REAL *restrict f2 = out[3], *restrict m2 = out[4], *restrict p2 = out[5];
     const REAL half = (REAL)0.5, one = 1, zero = 0;
-    const REAL stretch = sqrt(one + sqrt(r)), reduced = sqrt(one - r);
+    const REAL stretch = sqrt(one + sqrt(r)), root_reduced = sqrt(one - r), third = one / 3;
 
 #pragma omp simd
     for (long e = 0; e < n; e++) {
@@ -99,17 +99,6 @@ void edge_fluxes(long n, REAL r, REAL dry_depth, int exact_front, const REAL *co
         REAL a1 = dry ? d1 : i1;
         REAL a2 = dry ? zero : i2;
 
-        /* the grains' own HLL where they end */
-        REAL c_i = reduced * root_i, c_j = reduced * root_j, c_m = reduced * c2;
-        REAL o0, o1;
-        REAL o_l = h2_i <= dry_depth ? u2_j - 2 * c_j : least(u2 - c_m, u2_i - c_i);
-        REAL o_r = h2_j <= dry_depth ? u2_i + 2 * c_i : most(u2 + c_m, u2_j + c_j);
-        hll(o_l, o_r, &o0, &o1);
-        int front = exact_front && least(h2_i, h2_j) <= dry_depth;
-        o0 = front ? o0 : a0;
-        o1 = front ? o1 : a1;
-        REAL o2 = front ? zero : a2;
-
         /* viscosity: two products with the Roe matrix */
         REAL e1 = stuck ? d_eta : d_h1, e3 = stuck ? zero : d_h2;
         REAL k1 = h1 - u1 * u1, k2 = h2 - u2 * u2;
@@ -118,11 +107,27 @@ void edge_fluxes(long n, REAL r, REAL dry_depth, int exact_front, const REAL *co
         REAL g2 = k1 * d_q1 + 2 * u1 * b2 + h1 * d_q2;
         REAL g4 = r * h2 * d_q1 + k2 * d_q2 + 2 * u2 * b4;
 
-        REAL through = half * (q2_i + q2_j - (o0 * e3 + o1 * d_q2 + o2 * b4));
-        f1[e] = half * (q1_i + q1_j - (a0 * e1 + a1 * d_q1 + a2 * b2));
+        /* grains that run onto a dry bed: the fan of a dam break */
+        int outward = h2_i > h2_j;
+        REAL h_wet = outward ? h2_i : h2_j, w = outward ? u2_i : -u2_j;
+        REAL c_wet = root_reduced * (outward ? root_i : root_j);
+        REAL u_fan = most(zero, third * (w + c_wet + c_wet));
+        REAL u_star = w < c_wet ? u_fan : w;
+        REAL h_star = w < c_wet ? u_fan * u_fan / (one - r) : h_wet;
+        REAL mass = h_star * u_star;
+        REAL push = half * (one - r) * (h_star * h_star - half * h_wet * h_wet);
+        int front = exact_front && !stuck && h2_i != h2_j && least(h2_i, h2_j) <= dry_depth;
+
+        REAL through = half * (q2_i + q2_j - (a0 * e3 + a1 * d_q2 + a2 * b4));
+        REAL carried = half * (q2_i * u2_i + q2_j * u2_j - (a0 * d_q2 + a1 * b4 + a2 * g4));
+        through = front ? (outward ? mass : -mass) : through;
+        through = stuck ? zero : through;
+        REAL both = a0 * (e1 + e3) + a1 * (d_q1 + d_q2);
+        REAL viscous = front ? both - (q2_i + q2_j - 2 * through) : a0 * e1 + a1 * d_q1 + a2 * b2;
+        f1[e] = half * (q1_i + q1_j - viscous);
         m1[e] = half * (q1_i * u1_i + q1_j * u1_j - (a0 * d_q1 + a1 * b2 + a2 * g2));
-        f2[e] = stuck ? zero : through;
-        m2[e] = half * (q2_i * u2_i + q2_j * u2_j - (o0 * d_q2 + o1 * b4 + o2 * g4));
+        f2[e] = through;
+        m2[e] = front ? mass * u_star + push : carried;
         p1[e] = h1 * d_eta;
         p2[e] = h2 * (r * d_h1 + d_h2);
     }

@@ -131,6 +131,18 @@ def resolve(values: dict, names: dict[str, str] | None = None) -> tuple[str, Poi
     return label, point
 
 
+def solved_model(point: Point) -> str:
+    """Model that a point is solved with: its own, or what `auto` chooses."""
+    return choice.resolve_model(point)
+
+
+def kernels_of(point: Point) -> str:
+    """Name of the compiled code that a point needs: 'model:dtype', and ':general' where the lean one is too little."""
+    return f"{choice.resolve_model(point)}:{point.dtype}" + (
+        ":general" if choice.needs_general(point) else ""
+    )
+
+
 def _grids(values: dict) -> list[tuple[str, dict[str, list]]]:
     """Place in messages, and axes by key, of each case; without `cases`, of the one grid, which has no place."""
     shared = _axes(values)

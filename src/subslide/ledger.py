@@ -14,9 +14,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from subslide.atomic import write_json
-from subslide.config import Study
+from subslide.config import Study, kernels_of, solved_model
 from subslide.jobs import file_hash
-from subslide.models import choice
 from subslide.points import Point, to_dict
 
 SECONDS = (2.0, 60.0)
@@ -112,13 +111,6 @@ def split(points: list[Point]) -> list[list[Point]]:
     return [batch for group in groups.values() for batch in _balanced(group, target)]
 
 
-def kernels_of(point: Point) -> str:
-    """Name of the compiled code that a point needs: 'model:dtype', and ':general' where the lean one is too little."""
-    return f"{choice.resolve_model(point)}:{point.dtype}" + (
-        ":general" if choice.needs_general(point) else ""
-    )
-
-
 def cost(point: Point) -> float:
     """Estimated seconds of a run on one core: cells times steps, and a start.
 
@@ -126,7 +118,7 @@ def cost(point: Point) -> float:
     """
     half = point.cells / 2
     cells, kind = {"quarter": (half**2, "planar"), "plane": (4 * half**2, "planar")}.get(
-        choice.resolve_model(point), (half, "axial")
+        solved_model(point), (half, "axial")
     )
     seconds = point.t_end or 0.54 * math.sqrt(point.radius / 0.0705)
     fastest = math.sqrt(point.g * point.a_2 * point.radius * (1 + point.a_H))

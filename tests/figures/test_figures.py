@@ -163,7 +163,7 @@ def test_both_numerics_are_drawn_and_told_apart(name, both):
     legend = [text.get_text() for box in figure.legends for text in box.get_texts()]
     assert any("first-order IFCPH, cells of 3 mm" in text for text in legend)
     assert any("second-order IFCPH, cells of 0.75 mm" in text for text in legend)
-    assert "value that is not converged" in legend
+    assert "value whose three grids give no order" in legend
     assert "Also in this study" not in words(figure)
 
 

@@ -131,7 +131,6 @@ def test_on_real_runs_the_answer_of_a_finer_grid_lies_in_the_band(finish):
         finer = solve(config.make_point({"model": "radial", "a_H": row["a_H"], "cells": 3200}))
         found = results.bands[results.bands["id"] == row["id"]].set_index("quantity")
         lengths = found.loc[["L_f_1pc", "L_f_3pc", "L_f_5pc"]]
-        assert set(lengths["convergence"]) == {CONVERGING}
         assert (np.abs(lengths["value"] - finer.L_f) < lengths["band"]).all()
         assert (lengths["band"] < 0.02 * lengths["value"]).all()  # and it is no empty statement
 

@@ -8,5 +8,5 @@ def hll(s_l, s_r):
     """Return alpha0..2 of the line through (S_L, |S_L|) and (S_R, |S_R|)."""
     real = type(s_l)
     width = s_r - s_l
-    scale = real(1) / (width if width > real(0) else real(1))
+    scale = real(1) / (width if width > real(1e-30) else real(1))  # one over a subnormal width is infinite
     return (s_r * abs(s_l) - s_l * abs(s_r)) * scale, (abs(s_r) - abs(s_l)) * scale, real(0)

@@ -18,7 +18,7 @@ def ifcp(s_l, s_int, s_r):
     far = s_l if right else s_r
     sign = one if right else -one
     denominator = (far - s_int) * (far - near)
-    a2 = -sign * (far + far) / (denominator if denominator != zero else one)
+    a2 = -sign * (far + far) / (denominator if abs(denominator) > real(1e-30) else one)
     a0 = a2 * s_int * near
     a1 = zero if s_r == -s_l else sign - a2 * (near + s_int)  # exactly 0 by symmetry, else the mirror breaks
     left_going = s_r <= zero
