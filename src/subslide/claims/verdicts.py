@@ -119,7 +119,8 @@ def number(value: float, band: float, unit: float, digits: int = 3) -> str:
     text = f"{value / unit:#.{digits}g}".rstrip(".")
     if np.isnan(band):
         return f"{text}±?"
-    return f"{text}±{band / unit:.1g}" if band > 0 else text
+    band /= unit
+    return f"{text}±{band:{'.0f' if band >= 10 else '.1g'}}" if band > 0 else text
 
 
 def over_r(field: Field, unit: float, digits: int = 3) -> str:
