@@ -18,6 +18,7 @@ paper: $(READY)  ## set up, then the paper's study to figures and report
 study: $(READY)  ## check a study and run it: make study CONFIG=config/mine.yaml CORES=2
 	@$(BIN)/subslide check "$$CONFIG"
 	@$(BIN)/snakemake --configfile "$$CONFIG" --cores "$$CORES"
+	@echo "The study in $$CONFIG is up to date: its tables, figures and report.html are in results/, under its name"
 
 test: $(READY)  ## set up, then lint, format and every test
 	$(BIN)/ruff check .

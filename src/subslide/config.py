@@ -123,7 +123,10 @@ def resolve(values: dict, names: dict[str, str] | None = None) -> tuple[str, Poi
         )
     plane = choice.resolve_model(point) in ("quarter", "plane")
     if point.fields and not plane:
-        raise ConfigError(f"fields: true is not allowed with model: {point.model}; allowed: quarter, plane")
+        raise ConfigError(
+            f"fields: true is not allowed with model: {choice.resolve_model(point)} ({choice.model_reason(point)});"
+            " allowed: quarter, plane"
+        )
     if plane and point.cells > MOST_PLANE_CELLS:
         raise ConfigError(
             f"cells: {point.cells} is not allowed in the plane; allowed: at most {MOST_PLANE_CELLS}"

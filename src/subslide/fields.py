@@ -34,7 +34,7 @@ SERIES = {
         "x_front",
         ("run", "front_threshold", "step"),
         "m",
-        "distance from the axis to the farthest point where h2 exceeds the threshold",
+        "distance from the axis to the farthest point on the x axis where h2 exceeds the threshold",
     ),
     "max_abs_eta": Field("max|η|", STEP, "m", "largest displacement of the water surface in the initial box"),
     "max_abs_eta_outside": Field(
@@ -60,8 +60,18 @@ FIELDS_2D = {
 }
 
 SCALARS = {
-    "L_f": Field("L_f", ("run", "front_threshold"), "m", "final length of the deposit from the axis"),
-    "time_at_rest": Field("t_rest", ("run",), "s", "time at which every grain is at rest"),
+    "L_f": Field(
+        "L_f",
+        ("run", "front_threshold"),
+        "m",
+        "length of the deposit along the x axis at the end of the run",
+    ),
+    "time_at_rest": Field(
+        "t_rest",
+        ("run",),
+        "s",
+        "time since which no grain has moved (late waves may nudge a few)",
+    ),
     "box_half_width": Field("L", ("run",), "m", "half-width of the computational box"),
     "steps": Field("n", ("run",), "1", "number of time steps"),
     "wall_seconds": Field("", ("run",), "s", "wall time of the time loop alone"),

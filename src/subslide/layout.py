@@ -70,7 +70,9 @@ def variables(runs: list) -> dict[str, Variable]:
     found.update(_profiles(runs, first, len(x)))
     for name, variable in found.items():
         if variable.dims[:1] == ("run",) and name != "id":
-            variable.attrs["coordinates"] = "id"
+            times = {"step": "time", "snapshot": "snapshot_time"}
+            beside = [times[dim] for dim in variable.dims if times.get(dim, name) != name]
+            variable.attrs["coordinates"] = " ".join(["id", *beside])
     if any(name in found for name in fields.FIELDS_2D):
         found["y"] = _variable("y", x)
         found["y"].attrs["axis"] = "Y"

@@ -38,10 +38,16 @@ COLUMNS = {
     "status": ("", "how the run ended: " + "; ".join(f"`{k}`: {v}" for k, v in fields.STATUSES.items())),
     "status_detail": ("", "what ended the run, in words"),
     "steps": ("", "number of time steps"),
-    "time_at_rest": ("s", "time at which every grain is at rest; empty if that was not reached"),
+    "time_at_rest": (
+        "s",
+        "time since which no grain has moved (late waves may nudge a few); empty if some move at the end",
+    ),
     "box_half_width": ("m", "half-width of the box at the end"),
     **{
-        f"L_f_{t}": ("m", f"final length of the deposit from the axis; front where h2 = {t[:-2]} % of H2")
+        f"L_f_{t}": (
+            "m",
+            f"length of the deposit along x at the end of the run; front where h2 = {t[:-2]} % of H2",
+        )
         for t in THRESHOLDS
     },
     **{f"L_f_{t}_over_R": ("", f"the same over the initial radius ({t[:-2]} % front)") for t in THRESHOLDS},

@@ -14,6 +14,7 @@ def draw(results):
     chosen = _slices.cut(results, by=("a_H", "r"), most={"r": 6}, a_H=a_H)
     runs = chosen.runs
     radius, height = _slices.sizes(runs)
+    round_column = runs.iloc[0]["scene"] == "cylinder"
     shapes = {row["r"]: _profiles.profiles(results.record(row["id"]), "h2") for _, row in runs.iterrows()}
     looks = _style.keys_to(shapes)
     times = [0.0, *_profiles.times_of(shapes.values(), 4), None]
@@ -35,7 +36,8 @@ def draw(results):
                 missing.append(f"{_words.equation('r', r)}, {when}")
                 continue
             ax.plot(profile.x * x_unit.factor, profile.values * unit.factor, **_style.line(looks[r]))
-        ax.axvline(radius * x_unit.factor, color=_style.GREY, linewidth=0.7, linestyle=":", zorder=0.5)
+        if round_column:
+            ax.axvline(radius * x_unit.factor, color=_style.GREY, linewidth=0.7, linestyle=":", zorder=0.5)
     far = 1.05 * max(_profiles.reach(found, 2e-3 * height) for found in shapes.values()) + runs.iloc[0]["dx"]
     begin = _profiles.start(shapes.values(), far)
     axes[0].set(xlim=(begin * x_unit.factor, far * x_unit.factor), ylim=(0, 1.1 * height * unit.factor))
@@ -43,7 +45,7 @@ def draw(results):
         ax.set_xlabel(_words.label("x", x_unit))
     for ax in axes[::columns]:
         ax.set_ylabel(_words.label("h2", unit))
-    notes = [f"Dotted: edge of the column at release. {_rest(runs, t_unit)}"]
+    notes = ["Dotted: edge of the column at release. " * round_column + _rest(runs, t_unit)]
     if missing:
         notes.append(f"No profile: {'; '.join(missing)}.")
     notes += [*chosen.notes, *_slices.trouble(runs)]

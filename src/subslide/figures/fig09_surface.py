@@ -18,6 +18,7 @@ def draw(results):
     shown, left_out = _water.buoyant(runs)
     radius, _ = _slices.sizes(chosen.runs)
     looks = {r: look for r, look in _style.keys_to(runs["r"].unique()).items() if r in set(shown["r"])}
+    round_column = chosen.runs.iloc[0]["scene"] == "cylinder"
     shapes = {
         (row["a_H"], row["r"]): _profiles.profiles(results.record(row["id"]), "eta")
         for _, row in shown.iterrows()
@@ -45,7 +46,8 @@ def draw(results):
                 continue
             ax.plot(profile.x * x_unit.factor, profile.values * unit.factor, **_style.line(look))
         ax.axhline(0, color="black", linewidth=0.5, zorder=0.5)
-        ax.axvline(radius * x_unit.factor, color=_style.GREY, linewidth=0.7, linestyle=":", zorder=0.5)
+        if round_column:
+            ax.axvline(radius * x_unit.factor, color=_style.GREY, linewidth=0.7, linestyle=":", zorder=0.5)
     least = 0.01 * unit.factor * max((np.abs(wave).max() for wave in waves), default=0.0)
     for ax in axes[::columns]:  # round-off about a level surface is no wave
         low, high = ax.get_ylim()
@@ -57,8 +59,8 @@ def draw(results):
     for ax in _style.bottom_row(axes, columns):
         ax.set_xlabel(_words.label("x", x_unit))
     notes = [
-        "Displacement from the level at release. Each row has its own scale. Dotted: edge of the column "
-        "at release."
+        "Displacement from the level at release. Each row has its own scale."
+        + " Dotted: edge of the column at release." * round_column
     ]
     if not times:
         notes = ["No run of this study has a profile of the water surface."]

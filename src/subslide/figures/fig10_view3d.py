@@ -7,7 +7,7 @@ from subslide.figures import _profiles, _slices, _style, _water, _words
 
 TITLE = "Grains and water surface in three dimensions, r = 0.4, a_H = 1"
 CATEGORY = "4 Views"
-NEEDS = {"a_H": (1,), "r": (0.4,)}
+NEEDS = {"scene": ("cylinder",), "a_H": (1,), "r": (0.4,)}
 
 REACH = 3.0
 """Half-width of the view over R."""

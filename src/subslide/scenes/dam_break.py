@@ -1,6 +1,7 @@
 """A dam at x = 0: on a line, a layer at rest that is deeper on the left is let go.
 
 Grains are 1 deep and rest under still water, or alone in the model one-layer. Water is 1 + a_H deep, over a bare bed.
+The box needs `boundary: wall`. The answer is known exactly without friction, at r = 0 or with water alone.
 """
 
 import numpy as np

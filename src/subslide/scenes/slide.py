@@ -1,6 +1,7 @@
 """A uniform layer of grains, 1 deep, that slides to the right under still water or alone: for friction laws.
 
 Away from the walls at the ends of the line it keeps its depth and loses speed as `exact.slide` says.
+The box needs `boundary: wall`.
 """
 
 import numpy as np
