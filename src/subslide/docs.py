@@ -2,7 +2,7 @@
 
 from subslide import bands, claims, convergence, errors, fields, scenes, schema, tables
 
-CONFIG_PAGE, TABLES_PAGE = "config/README.md", "docs/tables.md"
+CONFIG_PAGE, TABLES_PAGE, RECORDS_PAGE = "config/README.md", "docs/tables.md", "docs/records.md"
 
 CONFIG_TEXT = """# Studies
 
@@ -77,12 +77,54 @@ does not have. Runs that failed are rows too: see `status`.
 """
 
 
+RECORDS_TEXT = """# Records
+
+<!-- written by `make docs` from src/subslide/fields.py -->
+
+`subslide run` writes one run, a study one file for each batch of runs, in one layout (NetCDF-4, CF-1.11): every
+variable of a run has the dimension `run`, of length 1 for a single run. Runs that are shorter, or lie in a smaller box,
+than others of their batch end in NaN. `results/<study>/points.json` says which batch holds which `id`:
+
+```python
+from subslide.results import Results
+
+Results("results/paper").record("p0123456789ab")  # one run by its id, as an xarray dataset without padding
+```
+
+Lengths are in m from the axis of the scene, times in s from its release. Front and deposit are measured along the x
+axis. In scenes on a line volumes and energy are per metre of width. Each key of a study is a variable too
+([config/README.md](../config/README.md)); attributes hold the configuration, versions and a checksum that readers
+verify. `status` is one of:
+
+"""
+
+
 def pages() -> dict[str, str]:
     """Text of each generated page, by its path from the root of the repository."""
     return {
         CONFIG_PAGE: CONFIG_TEXT + keys() + presets() + all_scenes(),
         TABLES_PAGE: TABLES_TEXT + columns(),
+        RECORDS_PAGE: RECORDS_TEXT + variables(),
     }
+
+
+def variables() -> str:
+    """Tables (Markdown) of the statuses and the variables of a record."""
+    lines = [f"- `{name}`: {text}" for name, text in fields.STATUSES.items()]
+    parts = {
+        "Series, a sample each time step": fields.SERIES,
+        "Profiles along the x axis, at each snapshot": fields.PROFILES,
+        "Fields, at each snapshot (`fields: true`, in the plane)": fields.FIELDS_2D,
+        "A value a run": {**fields.PARAMETERS, **fields.SCALARS},
+        "Coordinates": fields.COORDINATES,
+    }
+    for title, table in parts.items():
+        lines += ["", f"## {title}", "", "| name | dimensions | unit | meaning |", "|---|---|---|---|"]
+        lines += [
+            f"| `{name}` | {', '.join(field.dims)} | {field.unit} | {field.long_name} |"
+            for name, field in table.items()
+        ]
+    return "\n".join(lines) + "\n"
 
 
 def keys() -> str:
