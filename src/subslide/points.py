@@ -6,6 +6,17 @@ import math
 from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
 
+PAPER_RADIUS = 0.0705
+"""Radius (m) of the paper's column."""
+
+PAPER_TIMES = (0.08, 0.16, 0.24, 0.54)
+"""Times (s) after release at which the paper shows its column."""
+
+
+def paper_times(radius: float) -> tuple[float, ...]:
+    """The paper's times (s) for a column of another radius (m), in proportion to its root."""
+    return tuple(time * math.sqrt(radius / PAPER_RADIUS) for time in PAPER_TIMES)
+
 
 @dataclass(frozen=True)
 class Point:
@@ -19,7 +30,7 @@ class Point:
     a_2: float = 0.56
     r: float = 0.4
     delta: float = 32.0
-    radius: float = 0.0705
+    radius: float = PAPER_RADIUS
     g: float = 9.81
     scene: str = "cylinder"
     scene_options: tuple[tuple[str, float | str], ...] = ()
@@ -49,7 +60,7 @@ class Point:
     @property
     def dx(self) -> float:
         """Cell size (m): 0.6 m / cells at the paper's radius of 0.0705 m, in proportion to the radius."""
-        return 0.6 / self.cells * (self.radius / 0.0705)
+        return 0.6 / self.cells * (self.radius / PAPER_RADIUS)
 
 
 RUN_KEYS = tuple(field.name for field in fields(Point))

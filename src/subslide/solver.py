@@ -11,7 +11,7 @@ from .fields import FRONT_THRESHOLDS, STATUSES
 from .kernels import clock as k
 from .models.build import build
 from .models.choice import resolve_model
-from .points import Point
+from .points import Point, paper_times
 
 DRY_DEPTH = 1e-6
 """Over H2: below it a layer counts as dry (HLL instead of IFCP) and velocities are cut off smoothly."""
@@ -22,9 +22,6 @@ REST_CAP = 60.0
 GROWTH = 1.5
 LARGEST_BOX = 4.0
 """The box grows by GROWTH while the front reaches its edge, up to LARGEST_BOX times the paper's."""
-
-PAPER_TIMES = (0.0, 0.08, 0.16, 0.24, 0.54)
-"""s, for the paper's column; snapshots of another column are taken at these times sqrt(R / 0.0705 m)."""
 
 CHUNK = 512
 """Samples between two looks at the clock on the wall."""
@@ -93,7 +90,7 @@ def solve(point, threads=1, progress=None):
 def snapshot_times(point):
     """Return the times (s) of the point's snapshots, in order."""
     if point.snapshot_times is None:
-        return tuple(t * math.sqrt(point.radius / 0.0705) for t in PAPER_TIMES)
+        return (0.0, *paper_times(point.radius))
     return tuple(sorted(point.snapshot_times))
 
 

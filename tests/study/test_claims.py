@@ -9,7 +9,8 @@ import pytest
 from subslide import claims, laboratory
 from subslide.__main__ import main
 from subslide.claims import page
-from subslide.claims.evidence import PAPER_TIMES, THRESHOLDS, WAVES, Evidence
+from subslide.claims.evidence import THRESHOLDS, WAVES, Evidence
+from subslide.points import PAPER_TIMES
 
 DEPTHS, RATIOS = (1.0, 2.0, 10.0), (0.0, 0.2, 0.4, 0.6, 0.8)
 RADIUS, A_2 = 0.0705, 0.56

@@ -7,13 +7,11 @@ import numpy as np
 import pandas as pd
 
 from subslide.fields import FRONT_THRESHOLDS
-from subslide.points import RUN_KEYS
+from subslide.points import RUN_KEYS, paper_times
 
 THRESHOLDS = tuple(f"{100 * fraction:g}pc" for fraction in FRONT_THRESHOLDS)
 FRONT = f"x_front_{THRESHOLDS[0]}"
 WAVES = {"max_abs_eta": "whole box", "max_abs_eta_outside": "beyond R"}
-PAPER_TIMES = (0.08, 0.16, 0.24, 0.54)
-"""Times (s) at which the paper gives fronts and waves, at its R of 0.0705 m; other R scale them by sqrt(R)."""
 ARRIVED = 0.99
 """Fraction of its final length at which a front counts as arrived: the last grains stop cell by cell."""
 
@@ -61,7 +59,7 @@ class Evidence:
         self.radius = float(runs["radius"].iloc[0]) if len(runs) else np.nan
         self.a_2 = float(runs["a_2"].iloc[0]) if len(runs) else np.nan
         self.height = self.a_2 * self.radius
-        self.times = tuple(float(time * np.sqrt(self.radius / 0.0705)) for time in PAPER_TIMES)
+        self.times = paper_times(self.radius)
         ids, found, series = self.runs["id"], results.bands, results.series
         self.banded = bool(found["id"].isin(ids).any())
         found = found[found["id"].isin(ids)]

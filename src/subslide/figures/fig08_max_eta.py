@@ -4,13 +4,12 @@ import numpy as np
 import pandas as pd
 
 from subslide.figures import _kinds, _slices, _style, _water, _words
+from subslide.points import PAPER_TIMES, paper_times
 
 TITLE = "Largest displacement of the water surface against time"
 CATEGORY = "3 Water surface"
 NEEDS = {}
 
-PAPER_TIMES = (0.08, 0.16, 0.24, 0.54)
-"""Times (s) at which the paper gives max|eta|, at its R of 0.0705 m; other R scale them by sqrt(R)."""
 ROWS = {"max_abs_eta": "whole box", "max_abs_eta_outside": "beyond $R$"}
 
 
@@ -21,7 +20,7 @@ def draw(results):
     runs, dry = _water.wet(pd.concat([kind.runs for kind in found]))
     shown, left_out = _water.buoyant(runs)
     radius, _ = _slices.sizes(found[0].runs)
-    marks = np.sqrt(radius / 0.0705) * np.array(PAPER_TIMES)
+    marks = np.array(paper_times(radius))
     depths = sorted(shown["a_H"].unique())
     looks = {r: look for r, look in _style.keys_to(runs["r"].unique()).items() if r in set(shown["r"])}
     curves = {quantity: _slices.curves(results, shown, quantity) for quantity in ROWS}
