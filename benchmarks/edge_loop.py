@@ -3,7 +3,7 @@
 from numba import prange
 
 from subslide.kernels.edge import edge_fluxes
-from subslide.kernels.jit import inlined, launch
+from subslide.kernels.jit import inlined, launch, part
 
 BLOCK = 4096
 """Edges in the plain loop inside the parallel one, which alone vectorises."""
@@ -23,7 +23,9 @@ def edge_loop(s, e, out):
 def edges(s, e, out, first, last):
     """Fill the fluxes of the edges [first, last): a function of its own, as in the kernels (else numba drops it)."""
     zero = type(s.r)(0)
-    for k in range(first, last):
+    start, count = part(first, last)
+    for m in range(count):
+        k = m + start
         out.f1[k], out.m1[k], out.p1[k], out.f2[k], out.m2[k], out.p2[k] = edge_fluxes(
             s,
             e.stuck[k] != zero,

@@ -4,7 +4,7 @@ import math
 
 from numba import prange
 
-from ..diagnostics.budget import row_energy, row_nonhyperbolic, row_volumes
+from ..diagnostics.budget import row_budget, row_nonhyperbolic
 from ..diagnostics.front import front_position
 from ..diagnostics.surface import largest_displacement
 from . import clock as k
@@ -12,25 +12,30 @@ from .arrays import GHOSTS
 from .axial import cell_speeds, edges, faces, fill_ghosts, fill_stuck, grain_edges, marks, update
 from .jit import inlined, launch
 from .reduce import largest, smallest
+from .span import moved_span, reached, wet_span
 
 
 @inlined
-def sample(s, c, weight, thresholds, probe, now, row):
-    """Write one sample into `row`; the columns are named in `clock`."""
-    level, _, beside, beyond, start, stop, margin = probe
-    n = weight.shape[0]
+def sample(s, c, weight, total, thresholds, probe, low, high, now, row):
+    """Write one sample into `row`; the columns are named in `clock`. Cells outside low..high-1 are still."""
+    level, _, beside, beyond, start, stop, margin, still1, still2 = probe
+    n = c.h1.shape[0]
     row[k.TIME] = now
     for m in range(3):
         row[k.FRONT + m] = front_position(c.h2, c.h2, beside, thresholds[m], s.dx)
     row[k.ETA] = largest_displacement(c.eta, level, start, stop)
     row[k.ETA_OUTSIDE] = largest_displacement(c.eta, level, beyond, stop)
-    row[k.WATER], row[k.GRAINS] = row_volumes(c.h1, c.h2, weight)
-    row[k.ENERGY] = row_energy(c.h1, c.u1, c.v1, c.h2, c.u2, c.v2, weight, s.r)
-    row[k.COMPLEX] = (
-        0.0
-        if s.layers == 1
-        else row_nonhyperbolic(c.h1, c.u1, c.v1, c.h2, c.u2, c.v2, s.r, n, s.dry_depth, margin)
-    )
+    water, grains, energy = row_budget(c.h1, c.u1, c.v1, c.h2, c.u2, c.v2, weight, s.r, low, high)
+    rest = total[n] - (total[high] - total[low])
+    row[k.WATER] = water + rest * still1
+    row[k.GRAINS] = grains + rest * still2
+    row[k.ENERGY] = energy + rest * (0.5 * (s.r * still1 * still1 + still2 * still2) + s.r * still1 * still2)
+    row[k.COMPLEX] = 0.0
+    if s.layers == 2:
+        left, right = wet_span(c.h2, s.dry_depth, max(low, GHOSTS), min(high, n - GHOSTS))
+        row[k.COMPLEX] = row_nonhyperbolic(
+            c.h1, c.u1, c.v1, c.h2, c.u2, c.v2, s.r, s.dry_depth, margin, left, right
+        )
 
 
 @inlined
@@ -40,6 +45,91 @@ def rim_depth(h2, walls):
     left = 0.0 if walls[0] else max(h2[GHOSTS], h2[GHOSTS + 1])
     right = 0.0 if walls[1] else max(h2[n - GHOSTS - 1], h2[n - GHOSTS - 2])
     return max(left, right)
+
+
+@inlined
+def advance(
+    s,
+    c,
+    left,
+    right,
+    fx,
+    mk,
+    area,
+    inverse_volume,
+    weight,
+    total,
+    source,
+    walls,
+    probe,
+    thresholds,
+    clock,
+    samples,
+    counters,
+):
+    """Advance from clock[NOW] to clock[STOP], or until clock[REST_FROM] and rest, or until a run cannot go on.
+
+    One sample is written before each step and one at the end, from samples[counters[SAMPLES]] on; counters[OUTCOME]
+    says why the loop ended. `weight` (n + 4) is the volume of a cell per depth, 0 for ghosts, and `total` its sums from
+    the left; `source` (n + 4) is -1 / (2 radius) for round scenes; `probe` is (level, volume of grains below which too
+    much has left the box, padded column beside the axis, first beyond R, columns [start, stop) of the initial box,
+    margin of the discriminant, depths h1 and h2 of still water).
+    """
+    real = type(s.r)
+    least_grains = probe[1]
+    n = counters[k.SAMPLES]
+    cells = c.h1.shape[0]
+    first = 0
+    last = cells
+    whole = True
+    code = k.RUNNING
+    while code == k.RUNNING:
+        fill_ghosts(c, walls[0], walls[1])
+        cell_speeds(s, c, first, last)
+        low, high = moved_span(c.h1, c.u1, c.v1, c.h2, c.u2, c.v2, (probe[7], probe[8]), first, last)
+        if whole:
+            first = cells
+            last = 0
+            whole = False
+        first, last = reached(first, last, low, high, cells)
+        now = clock[k.NOW]
+        row = samples[n]
+        sample(s, c, weight, total, thresholds, probe, low, high, now, row)
+        finite = math.isfinite(row[k.ENERGY]) and math.isfinite(row[k.WATER] + row[k.GRAINS])
+        shallowest = min(smallest(c.h1, low, high), smallest(c.h2, low, high))
+        rim = rim_depth(c.h2, walls)
+        n += 1
+        code = k.outcome(
+            clock,
+            finite,
+            shallowest,
+            largest(c.square2, low, high),
+            rim >= thresholds[0] or row[k.GRAINS] < least_grains,
+            n == samples.shape[0],
+        )
+        if code == k.RUNNING:
+            pace = max(largest(c.pace, low, high), max(c.pace[0], c.pace[cells - 1]))
+            stop = clock[k.STOP]
+            stable = s.cfl * s.dx / pace if pace > real(0) else real(stop - now)
+            if stable < k.SMALLEST_STEP * s.dx:
+                code = k.COLLAPSED
+            else:
+                step = k.next_step(now, stop, stable)
+                dt = real(step)
+                start = max(first - GHOSTS, 0)  # of cells without ghosts; edge k is before cell k
+                end = min(last - GHOSTS, cells - 2 * GHOSTS)
+                if s.order != 1:
+                    faces(s, c, left, right, mk, source, start, end + 2, dt)
+                fill_stuck(s, c, fx, start, end + 1, dt)
+                if s.layers == 1:
+                    grain_edges(s, left, right, fx, start, end + 1)
+                else:
+                    edges(s, c, left, right, fx, start, end + 1)
+                marks(s, c, fx, mk, area, inverse_volume, start, end, dt)
+                update(s, c, fx, mk, area, inverse_volume, start, end, dt)
+                clock[k.NOW] = stop if now + step >= stop else now + dt
+    counters[k.SAMPLES] = n
+    counters[k.OUTCOME] = code
 
 
 @launch
@@ -53,6 +143,7 @@ def advance_axial(
     area,
     inverse_volume,
     weight,
+    total,
     source,
     walls,
     probe,
@@ -61,53 +152,24 @@ def advance_axial(
     samples,
     counters,
 ):
-    """Advance from clock[NOW] to clock[STOP], or until clock[REST_FROM] and rest, or until a run cannot go on.
-
-    One sample is written before each step and one at the end, from samples[counters[SAMPLES]] on; counters[OUTCOME]
-    says why the loop ended. `weight` (n) is the volume of a cell per depth, `source` (n + 4) is -1 / (2 radius) for
-    round scenes; `probe` is (level, volume of grains below which too much has left the box, padded column beside the
-    axis, first beyond R, columns [start, stop) of the initial box, margin of the discriminant).
-    """
+    """Run `advance` in a parallel region of one, where arrays are known not to overlap; see `jit.launch`."""
     for _ in prange(1):
-        real = type(s.r)
-        least_grains = probe[1]
-        n = counters[k.SAMPLES]
-        code = k.RUNNING
-        while code == k.RUNNING:
-            fill_ghosts(c, walls[0], walls[1])
-            cell_speeds(s, c)
-            now = clock[k.NOW]
-            row = samples[n]
-            sample(s, c, weight, thresholds, probe, now, row)
-            finite = math.isfinite(row[k.ENERGY]) and math.isfinite(row[k.WATER] + row[k.GRAINS])
-            shallowest = min(smallest(c.h1), smallest(c.h2))
-            rim = rim_depth(c.h2, walls)
-            n += 1
-            code = k.outcome(
-                clock,
-                finite,
-                shallowest,
-                largest(c.speed2),
-                rim >= thresholds[0] or row[k.GRAINS] < least_grains,
-                n == samples.shape[0],
-            )
-            if code == k.RUNNING:
-                pace = largest(c.pace)
-                stop = clock[k.STOP]
-                stable = s.cfl * s.dx / pace if pace > real(0) else real(stop - now)
-                if stable < k.SMALLEST_STEP * s.dx:
-                    code = k.COLLAPSED
-                else:
-                    step = k.next_step(now, stop, stable)
-                    dt = real(step)
-                    faces(s, c, left, right, mk, real(0.5) * dt / s.dx, source, dt)
-                    fill_stuck(s, c, fx, dt)
-                    if s.layers == 1:
-                        grain_edges(s, left, right, fx)
-                    else:
-                        edges(s, c, left, right, fx)
-                    marks(s, c, fx, mk, area, inverse_volume, dt)
-                    update(s, c, fx, mk, area, inverse_volume, dt)
-                    clock[k.NOW] = stop if now + step >= stop else now + dt
-        counters[k.SAMPLES] = n
-        counters[k.OUTCOME] = code
+        advance(
+            s,
+            c,
+            left,
+            right,
+            fx,
+            mk,
+            area,
+            inverse_volume,
+            weight,
+            total,
+            source,
+            walls,
+            probe,
+            thresholds,
+            clock,
+            samples,
+            counters,
+        )

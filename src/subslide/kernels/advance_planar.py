@@ -1,4 +1,4 @@
-"""The time loop in the plane: four launches a step, each over blocks of rows.
+"""The time loop in the plane: four launches a step, each over rows or blocks of them.
 
 Blocks do not depend on the number of threads, nor does any result. Each launch is a function of its own: numba fuses
 loops over the same range that follow each other in one function, and an update would overtake its neighbours' marks.
@@ -6,51 +6,47 @@ loops over the same range that follow each other in one function, and an update 
 
 import math
 
+import numpy as np
 from numba import prange
 
-from ..diagnostics.budget import row_energy, row_nonhyperbolic, row_volumes
+from ..diagnostics.budget import row_budget, row_nonhyperbolic
 from ..diagnostics.front import front_position
 from ..diagnostics.surface import largest_displacement
 from . import clock as k
 from .arrays import GHOSTS
 from .jit import driver, inlined, launch
-from .planar import (
-    cell_speeds,
-    constant_faces,
-    edges_x,
-    edges_y,
-    faces,
-    fill_ghosts,
-    fill_stuck,
-    marks,
-    update,
-)
+from .planar import cell_speeds, edges, faces, fill_ghosts, fill_stuck, marks, turned, update
 from .reduce import largest, smallest
+from .span import FIRST, HIGH, LAST, LOW, joint, moved_span, wet_span, widen
 
 BLOCK = 16
 """Rows a block: few enough to share among cores, many enough that the row before it costs little."""
 
-PACE, SPEED2, SHALLOWEST, RIM, ROW_ETA, ROW_OUTSIDE, ROW_WATER, ROW_GRAINS, ROW_ENERGY, ROW_COMPLEX = range(
+PACE, SQUARE2, SHALLOWEST, RIM, ROW_ETA, ROW_OUTSIDE, ROW_WATER, ROW_GRAINS, ROW_ENERGY, ROW_COMPLEX = range(
     10
 )
 ROW_COLUMNS = 10
 
 
 @inlined
-def measure_row(s, c, j, walls, probe, inside, weight, row):
-    """Write what the padded row j adds to a sample into `row`."""
-    level, _, start, stop, first_row, last_row, margin = probe
+def measure_row(s, c, j, walls, probe, inside, weight, total, span, row):
+    """Write what the padded row j adds to a sample into `row`, and into `span` which of its cells are not still."""
+    level, _, start, stop, first_row, last_row, margin, still1, still2 = probe
     ny, nx = c.h1.shape
-    row[PACE] = largest(c.pace[j])
-    row[SPEED2] = largest(c.speed2[j])
-    row[SHALLOWEST] = min(smallest(c.h1[j]), smallest(c.h2[j]))
+    h1, u1, v1, h2, u2, v2 = c.h1[j], c.u1[j], c.v1[j], c.h2[j], c.u2[j], c.v2[j]
+    low, high = moved_span(h1, u1, v1, h2, u2, v2, (still1, still2), span[FIRST], span[LAST])
+    span[LOW] = low
+    span[HIGH] = high
+    row[PACE] = max(largest(c.pace[j], low, high), max(c.pace[j, 0], c.pace[j, nx - 1]))
+    row[SQUARE2] = largest(c.square2[j], low, high)
+    row[SHALLOWEST] = min(smallest(h1, low, high), smallest(h2, low, high))
     row[RIM] = 0.0
     if not walls[0]:
-        row[RIM] = max(row[RIM], max(c.h2[j, GHOSTS], c.h2[j, GHOSTS + 1]))
+        row[RIM] = max(row[RIM], max(h2[GHOSTS], h2[GHOSTS + 1]))
     if not walls[1]:
-        row[RIM] = max(row[RIM], max(c.h2[j, nx - GHOSTS - 1], c.h2[j, nx - GHOSTS - 2]))
+        row[RIM] = max(row[RIM], max(h2[nx - GHOSTS - 1], h2[nx - GHOSTS - 2]))
     if (j < GHOSTS + 2 and not walls[2]) or (j >= ny - GHOSTS - 2 and not walls[3]):
-        row[RIM] = max(row[RIM], largest(c.h2[j]))
+        row[RIM] = max(row[RIM], largest(h2, 0, nx))
     row[ROW_ETA] = 0.0
     row[ROW_OUTSIDE] = 0.0
     if first_row <= j < last_row:
@@ -60,11 +56,15 @@ def measure_row(s, c, j, walls, probe, inside, weight, row):
         row[ROW_ETA] = max(
             row[ROW_OUTSIDE], largest_displacement(c.eta[j], level, inside[j, 0], inside[j, 1])
         )
-    row[ROW_WATER], row[ROW_GRAINS] = row_volumes(c.h1[j], c.h2[j], weight)
-    row[ROW_ENERGY] = row_energy(c.h1[j], c.u1[j], c.v1[j], c.h2[j], c.u2[j], c.v2[j], weight, s.r)
-    row[ROW_COMPLEX] = row_nonhyperbolic(
-        c.h1[j], c.u1[j], c.v1[j], c.h2[j], c.u2[j], c.v2[j], s.r, weight.shape[0], s.dry_depth, margin
+    water, grains, energy = row_budget(h1, u1, v1, h2, u2, v2, weight, s.r, low, high)
+    rest = total[nx] - (total[high] - total[low])
+    row[ROW_WATER] = water + rest * still1
+    row[ROW_GRAINS] = grains + rest * still2
+    row[ROW_ENERGY] = energy + rest * (
+        0.5 * (s.r * still1 * still1 + still2 * still2) + s.r * still1 * still2
     )
+    left, right = wet_span(h2, s.dry_depth, max(low, GHOSTS), min(high, nx - GHOSTS))
+    row[ROW_COMPLEX] = row_nonhyperbolic(h1, u1, v1, h2, u2, v2, s.r, s.dry_depth, margin, left, right)
 
 
 @inlined
@@ -84,48 +84,78 @@ def collect(s, c, axis, thresholds, rows, now, sample):
         sample[k.COMPLEX] += rows[j, ROW_COMPLEX]
 
 
-@launch
-def survey(s, c, walls, probe, inside, weight, rows):
-    """Fill the wave speeds of every cell and what each row adds to a sample."""
-    for j in prange(c.h1.shape[0]):
-        cell_speeds(s, c, j)
-        measure_row(s, c, j, walls, probe, inside, weight, rows[j])
+@inlined
+def survey_row(s, c, walls, probe, inside, weight, total, spans, rows, whole, j):
+    """Fill what a step derives from the padded row j, and `rows`; see `survey`."""
+    nx = c.h1.shape[1]
+    span = spans[j]
+    if whole:
+        span[FIRST] = 0
+        span[LAST] = nx
+    cell_speeds(s, c, j, span[FIRST], span[LAST])
+    measure_row(s, c, j, walls, probe, inside, weight, total, span, rows[j])
+    if whole:
+        span[FIRST] = nx
+        span[LAST] = 0
 
 
 @launch
-def fill_fluxes(s, c, left, right, lower, upper, fx, fy, mk, dt):
-    """Fill the fluxes of all edges, a block of rows at a time; its first row's faces below belong to the row before."""
-    ny = fx.f1.shape[0]
-    blocks = left.h1.shape[0]
+def survey(s, c, walls, probe, inside, weight, total, spans, rows, whole):
+    """Fill what a step derives from the cells that the last one may have changed (all if `whole`), and `rows`."""
+    for j in prange(spans.shape[0]):
+        survey_row(s, c, walls, probe, inside, weight, total, spans, rows, whole, np.int64(j))
+
+
+@inlined
+def block_fluxes(s, c, left, right, lower, upper, fx, fy, mk, spans, dt, b, blocks):
+    """Fill the fluxes of block b of the rows; see `fill_fluxes`."""
+    ny, nx = fy.f1.shape[0] - 1, fx.f1.shape[1] - 1
+    first = b * BLOCK
+    last = first + BLOCK if b < blocks - 1 else ny + 1  # the last edge has the ghost row above it
+    for j in range(first - 1, last):
+        p = j + GHOSTS - 1
+        n = p + 1
+        now = n if s.order == 1 else b
+        new = n if s.order == 1 else 2 * b + (j - first + 1) % 2
+        old = p if s.order == 1 else 4 * b + 1 - new
+        if s.order != 1:
+            start, stop = joint(spans, n - 1, min(n + 1, ny + 2 * GHOSTS - 1), -2, 0, nx + 2)
+            faces(s, c, mk, n, left, right, lower, upper, now, new, start, stop, dt)
+        if first <= j < ny:
+            start, stop = joint(spans, n, n, -GHOSTS, 1 - GHOSTS, nx + 1)
+            fill_stuck(s, c, fx.stuck, j, (n, n), GHOSTS - 1, 1, start, stop, dt)
+            sides = (now, now)
+            edges(s, fx, j, c.slow_x, c.fast_x, (n, n), right, left, sides, GHOSTS - 1, 1, start, stop)
+        if j >= first:
+            start, stop = joint(spans, p, n, -GHOSTS, -GHOSTS, nx)
+            fill_stuck(s, c, fy.stuck, j, (p, n), GHOSTS, 0, start, stop, dt)
+            below, above = turned(upper), turned(lower)
+            edges(s, fy, j, c.slow_y, c.fast_y, (p, n), below, above, (old, now), GHOSTS, 0, start, stop)
+
+
+@launch
+def fill_fluxes(s, c, left, right, lower, upper, fx, fy, mk, spans, dt, blocks):
+    """Fill the fluxes of all edges within the rows' spans, a block of rows at a time.
+
+    At first order the four sides are the cells' own states. At second order each block has rows of its own for them
+    (its first row's faces below belong to the row before), few enough to stay in a core's cache.
+    """
     for b in prange(blocks):
-        first = b * BLOCK
-        last = first + BLOCK if b < blocks - 1 else ny + 1  # the last edge has the ghost row above it
-        for j in range(first - 1, last):
-            u = 2 * b + (j - first + 1) % 2
-            if s.order == 1:
-                constant_faces(c, j + GHOSTS, left, right, lower, upper, b, u)
-            else:
-                faces(s, c, mk, j + GHOSTS, left, right, lower, upper, b, u, dt)
-            if first <= j < ny:
-                fill_stuck(s, c, j, fx.stuck, GHOSTS, GHOSTS - 1, 0, 1, dt)
-                edges_x(s, c, j, left, right, b, fx)
-            if j >= first:
-                fill_stuck(s, c, j, fy.stuck, GHOSTS - 1, GHOSTS, 1, 0, dt)
-                edges_y(s, c, j, lower, upper, b, 4 * b + 1 - u, fy)
+        block_fluxes(s, c, left, right, lower, upper, fx, fy, mk, spans, dt, np.int64(b), blocks)
 
 
 @launch
-def fill_marks(s, c, fx, fy, mk, dt):
-    """Fill `Marks` of every cell."""
-    for j in prange(fx.f1.shape[0]):
-        marks(s, c, fx, fy, mk, j, dt)
+def fill_marks(s, c, fx, fy, mk, spans, dt, ny):
+    """Fill `Marks` of the cells within the rows' spans."""
+    for j in prange(ny):
+        marks(s, c, fx, fy, mk, spans, np.int64(j), dt)
 
 
 @launch
-def update_cells(s, c, fx, fy, mk, dt):
-    """Advance every cell by dt."""
-    for j in prange(fx.f1.shape[0]):
-        update(s, c, fx, fy, mk, j, dt)
+def update_cells(s, c, fx, fy, mk, spans, dt, ny):
+    """Advance the cells within the rows' spans by dt."""
+    for j in prange(ny):
+        update(s, c, fx, fy, mk, spans, np.int64(j), dt)
 
 
 @driver
@@ -140,10 +170,12 @@ def advance_planar(
     fy,
     mk,
     weight,
+    total,
     walls,
     probe,
     inside,
     axis,
+    spans,
     rows,
     thresholds,
     clock,
@@ -153,16 +185,22 @@ def advance_planar(
     """Advance from clock[NOW] to clock[STOP], or until clock[REST_FROM] and rest, or until a run cannot go on.
 
     One sample is written before each step and one at the end, from samples[counters[SAMPLES]] on; counters[OUTCOME]
-    says why the loop ended. `weight` (nx) is a cell's area; `probe` is (level, volume of grains below which too much
-    has left the box, padded columns [start, stop) and rows [first, last) of the initial box, margin of the
-    discriminant); `inside` (padded rows, 2) the columns within R; `axis` the two padded rows beside the x axis and
-    the first padded column beyond the y axis; `rows` is scratch.
+    says why the loop ended. `weight` (padded columns) is a cell's area, 0 for ghosts, and `total` its sums from the
+    left; `probe` is (level, volume of grains below which too much has left the box, padded columns [start, stop) and
+    rows [first, last) of the initial box, margin of the discriminant, depths h1 and h2 of still water); `inside`
+    (padded rows, 2) the columns within R; `axis` the two padded rows beside the x axis and the first padded column
+    beyond the y axis; `spans` see `span`; `rows` is scratch.
     """
     n = counters[k.SAMPLES]
+    ny = fx.f1.shape[0]
+    blocks = (ny + BLOCK - 1) // BLOCK
+    whole = True
     code = k.RUNNING
     while code == k.RUNNING:
         fill_ghosts(c, walls)
-        survey(s, c, walls, probe, inside, weight, rows)
+        survey(s, c, walls, probe, inside, weight, total, spans, rows, whole)
+        widen(spans, c.h1.shape[1])
+        whole = False
         now = clock[k.NOW]
         sample = samples[n]
         collect(s, c, axis, thresholds, rows, now, sample)
@@ -171,13 +209,13 @@ def advance_planar(
         code = k.outcome(
             clock,
             finite,
-            smallest(rows[:, SHALLOWEST]),
-            largest(rows[:, SPEED2]),
-            largest(rows[:, RIM]) >= thresholds[0] or sample[k.GRAINS] < probe[1],
+            smallest(rows[:, SHALLOWEST], 0, rows.shape[0]),
+            largest(rows[:, SQUARE2], 0, rows.shape[0]),
+            largest(rows[:, RIM], 0, rows.shape[0]) >= thresholds[0] or sample[k.GRAINS] < probe[1],
             n == samples.shape[0],
         )
         if code == k.RUNNING:
-            pace = largest(rows[:, PACE])
+            pace = largest(rows[:, PACE], 0, rows.shape[0])
             stop = clock[k.STOP]
             stable = s.cfl * s.dx / pace if pace > 0.0 else stop - now
             if stable < k.SMALLEST_STEP * s.dx:
@@ -185,9 +223,9 @@ def advance_planar(
             else:
                 step = k.next_step(now, stop, stable)
                 dt = type(s.r)(step)
-                fill_fluxes(s, c, left, right, lower, upper, fx, fy, mk, dt)
-                fill_marks(s, c, fx, fy, mk, dt)
-                update_cells(s, c, fx, fy, mk, dt)
+                fill_fluxes(s, c, left, right, lower, upper, fx, fy, mk, spans, dt, blocks)
+                fill_marks(s, c, fx, fy, mk, spans, dt, ny)
+                update_cells(s, c, fx, fy, mk, spans, dt, ny)
                 clock[k.NOW] = stop if now + step >= stop else now + dt
     counters[k.SAMPLES] = n
     counters[k.OUTCOME] = code

@@ -58,7 +58,8 @@ class Cells(NamedTuple):
     u2: np.ndarray
     v2: np.ndarray
     eta: np.ndarray  # h1 + h2
-    speed2: np.ndarray  # |u2|
+    head2: np.ndarray  # r h1 + h2, whose slope drives the grains
+    square2: np.ndarray  # |u2|^2
     slow_x: np.ndarray
     fast_x: np.ndarray
     slow_y: np.ndarray

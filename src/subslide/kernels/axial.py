@@ -1,18 +1,19 @@
 """One step in one dimension: a line, or a radius (round scenes), of n cells.
 
 Edge k lies between the padded cells k + 1 and k + 2. `area` (n + 1) is the size of an edge and `inverse_volume` (n)
-one over the size of a cell: radius and 1 / (radius dx) for round scenes, 1 and 1 / dx on a line.
+one over the size of a cell: radius and 1 / (radius dx) for round scenes, 1 and 1 / dx on a line. Loops over
+start..stop-1 count from the smallest index that they need.
 """
 
 from .arrays import GHOSTS, is_general
 from .edge import edge_fluxes, grain_edge_fluxes
 from .friction import COULOMB, further
-from .friction.coulomb import coulomb, drive, holds
-from .jit import inlined
+from .friction.coulomb import coulomb, head, holds
+from .jit import inlined, part
 from .positivity import limit, share
 from .reconstruct import depth_slopes, grain_slopes, mc, rates
 from .velocity import velocity
-from .waves import chosen_outer_speeds, grain_speeds
+from .waves import chosen_bounds, grain_speeds
 
 
 @inlined
@@ -34,53 +35,52 @@ def copy_cell(c, source, ghost, mirrored):
 
 
 @inlined
-def cell_speeds(s, c):
-    """Fill eta, |u2|, the outer wave speeds and the pace of every cell."""
+def cell_speeds(s, c, start, stop):
+    """Fill what a step derives from the state of cells: sums, squares, wave speeds and the pace."""
+    first, count = part(start, stop)
     if s.layers == 1:
-        for i in range(c.h1.shape[0]):
+        for k in range(count):
+            i = k + first
             c.eta[i] = c.h2[i]
-            c.speed2[i] = abs(c.u2[i])
+            c.head2[i] = c.h2[i]
+            c.square2[i] = c.u2[i] * c.u2[i]
             slow, fast = grain_speeds(c.h2[i], c.u2[i])
             c.pace[i] = max(fast, -slow)
     else:
-        for i in range(c.h1.shape[0]):
+        for k in range(count):
+            i = k + first
             c.eta[i] = c.h1[i] + c.h2[i]
-            c.speed2[i] = abs(c.u2[i])
-            slow, fast = chosen_outer_speeds(s, c.h1[i], c.u1[i], c.h2[i], c.u2[i])
+            c.head2[i] = head(s.r, c.eta[i], c.h2[i])
+            c.square2[i] = c.u2[i] * c.u2[i]
+            slow, fast = chosen_bounds(s, c.h1[i], c.u1[i], c.h2[i], c.u2[i])
             c.slow_x[i] = slow
             c.fast_x[i] = fast
             c.pace[i] = max(fast, -slow)
 
 
 @inlined
-def faces(s, c, left, right, mk, ratio, source, dt):
-    """Fill the states at the left and right face of each cell and the pressure products across it.
+def faces(s, c, left, right, mk, source, start, stop, dt):
+    """Second order: the states at both faces of cells, half a step on, and the pressure products across them.
 
-    `ratio` is dt / (2 dx); `source` (n + 4) is -1 / (2 radius) for round scenes, 0 on a line. Grains that friction
+    `source` (n + 4) is -1 / (2 radius) for round scenes, 0 on a line. Grains that friction
     can stop are not accelerated in the half step; moving ones feel no friction in it (more accurate on coarse grids,
     measured).
     """
     real = type(s.r)
     half = real(0.5)
     zero = real(0)
-    if s.order == 1:
-        for i in range(1, c.h1.shape[0] - 1):
-            left.eta[i] = right.eta[i] = c.eta[i]
-            left.h1[i] = right.h1[i] = c.h1[i]
-            left.u1[i] = right.u1[i] = c.u1[i]
-            left.h2[i] = right.h2[i] = c.h2[i]
-            left.u2[i] = right.u2[i] = c.u2[i]
-        return
+    ratio = half * dt / s.dx
     static = (real(1) - s.r) * s.friction
     reach = dt * static
-    slope_bound = s.dx * static
-    for i in range(1, c.h1.shape[0] - 1):
+    first, count = part(start, stop)
+    for k in range(count):
+        i = k + first + 1
         h1 = c.h1[i]
         u1 = c.u1[i]
         h2 = c.h2[i]
         u2 = c.u2[i]
         s_u1 = mc(u1 - c.u1[i - 1], c.u1[i + 1] - u1)
-        moving = c.speed2[i] > reach
+        moving = c.square2[i] > reach * reach
         s_h2, s_u2 = grain_slopes(
             s.r, s.dry_depth, moving, c.h2[i - 1], c.u2[i - 1], h2, u2, c.h2[i + 1], c.u2[i + 1]
         )
@@ -93,7 +93,7 @@ def faces(s, c, left, right, mk, ratio, source, dt):
         d_h1, d_u1, d_h2, d_u2 = rates(s.r, h1, u1, h2, u2, s_eta, s_h1, s_h2, s_u1, s_u2)
         change1 = max(-h1, ratio * d_h1 + dt * source[i] * h1 * u1)
         change2 = max(-h2, ratio * d_h2 + dt * source[i] * h2 * u2)
-        still = holds(reach, slope_bound, c.speed2[i], abs(d_u2))
+        still = holds(reach, s.dx * static, c.square2[i], d_u2 * d_u2)
         m_h1 = h1 + change1
         m_h2 = h2 + change2
         m_u1 = u1 + ratio * d_u1
@@ -115,23 +115,26 @@ def faces(s, c, left, right, mk, ratio, source, dt):
 
 
 @inlined
-def fill_stuck(s, c, fx, dt):
-    """Mark the edges where friction holds the grains on both sides at rest."""
+def fill_stuck(s, c, fx, start, stop, dt):
+    """Mark the edges start..stop-1 where friction holds the grains on both sides at rest."""
     real = type(s.r)
     static = (real(1) - s.r) * s.friction
-    for k in range(fx.stuck.shape[0]):
+    first, count = part(start, stop)
+    for m in range(count):
+        k = m + first
         i = k + GHOSTS - 1
-        j = i + 1
-        push = drive(s.r, c.eta[j] - c.eta[i], c.h2[j] - c.h2[i])
-        held = holds(dt * static, s.dx * static, max(c.speed2[i], c.speed2[j]), abs(push))
+        push = c.head2[i + 1] - c.head2[i]
+        held = holds(dt * static, s.dx * static, max(c.square2[i], c.square2[i + 1]), push * push)
         fx.stuck[k] = real(1) if held else real(0)
 
 
 @inlined
-def grain_edges(s, left, right, fx):
-    """Fill the fluxes of every edge for grains alone."""
+def grain_edges(s, left, right, fx, start, stop):
+    """Fill the fluxes of the edges start..stop-1 for grains alone."""
     zero = type(s.r)(0)
-    for k in range(fx.f2.shape[0]):
+    first, count = part(start, stop)
+    for m in range(count):
+        k = m + first
         i = k + GHOSTS - 1
         j = i + 1
         fx.f2[k], fx.m2[k], fx.p2[k] = grain_edge_fluxes(
@@ -140,10 +143,12 @@ def grain_edges(s, left, right, fx):
 
 
 @inlined
-def edges(s, c, left, right, fx):
-    """Fill the fluxes of every edge, from the right face of the cell before it and the left face of the one after."""
+def edges(s, c, left, right, fx, start, stop):
+    """Fill the fluxes of the edges start..stop-1, from the right face of the cell before and the left one after."""
     zero = type(s.r)(0)
-    for k in range(fx.f1.shape[0]):
+    first, count = part(start, stop)
+    for m in range(count):
+        k = m + first
         i = k + GHOSTS - 1
         j = i + 1
         fx.f1[k], fx.m1[k], fx.p1[k], fx.f2[k], fx.m2[k], fx.p2[k] = edge_fluxes(
@@ -164,10 +169,12 @@ def edges(s, c, left, right, fx):
 
 
 @inlined
-def marks(s, c, fx, mk, area, inverse_volume, dt):
-    """Fill `Marks` of every cell but the ghosts, whose `keep` stays 1."""
+def marks(s, c, fx, mk, area, inverse_volume, start, stop, dt):
+    """Fill `Marks` of cells; of ghosts `keep` stays 1."""
     zero = type(s.r)(0)
-    for k in range(inverse_volume.shape[0]):
+    first, count = part(start, stop)
+    for m in range(count):
+        k = m + first
         i = k + GHOSTS
         scale = dt * inverse_volume[k]
         out1 = scale * (area[k + 1] * max(zero, fx.f1[k + 1]) - area[k] * min(zero, fx.f1[k]))
@@ -178,13 +185,15 @@ def marks(s, c, fx, mk, area, inverse_volume, dt):
 
 
 @inlined
-def update(s, c, fx, mk, area, inverse_volume, dt):
-    """Advance every cell by dt: fluxes, pressure, then Coulomb friction."""
+def update(s, c, fx, mk, area, inverse_volume, start, stop, dt):
+    """Advance cells by dt: fluxes, pressure, then Coulomb friction."""
     real = type(s.r)
     half = real(0.5)
     reach = dt * (real(1) - s.r) * s.friction
     ratio = dt / s.dx
-    for k in range(inverse_volume.shape[0]):
+    first, count = part(start, stop)
+    for m in range(count):
+        k = m + first
         i = k + GHOSTS
         before = area[k] * dt * inverse_volume[k]
         after = area[k + 1] * dt * inverse_volume[k]
@@ -204,5 +213,5 @@ def update(s, c, fx, mk, area, inverse_volume, dt):
         c.u1[i] = velocity(q1, h1, s.dry_depth)
         c.u2[i] = u2 * coulomb(reach, abs(u2), mk.held[i])
     if is_general(s) and s.law != COULOMB:
-        for i in range(GHOSTS, GHOSTS + inverse_volume.shape[0]):
+        for i in range(start + GHOSTS, stop + GHOSTS):
             c.u2[i] *= further(s, dt, c.h2[i], abs(c.u2[i]))

@@ -1,18 +1,19 @@
 """One step in the plane, as work on rows of ny x nx square cells (y first).
 
 Edge (j, k) of `fx` lies between the padded cells k + 1 and k + 2 of the padded row j + 2; `fy` likewise along y.
-Rows are worked on in blocks so that the states at faces stay in a core's cache.
+Loops over columns start..stop-1 count from the smallest index that they need.
 """
 
 from .arrays import GHOSTS, Side, is_general
 from .edge import edge_fluxes
 from .friction import COULOMB, further
-from .friction.coulomb import coulomb, drive, holds
-from .jit import inlined
+from .friction.coulomb import coulomb, head, holds
+from .jit import inlined, part, unsigned
 from .positivity import donor, limit, share
 from .reconstruct import depth_slopes, grain_slopes, mc, rates
+from .span import joint
 from .velocity import norm, velocity
-from .waves import chosen_outer_speeds
+from .waves import chosen_bounds
 
 
 @inlined
@@ -42,33 +43,23 @@ def fill_ghosts(c, walls):
 
 
 @inlined
-def cell_speeds(s, c, j):
-    """Fill eta, |u2|, the outer wave speeds and the pace of the padded row j."""
-    for i in range(c.h1.shape[1]):
+def cell_speeds(s, c, j, start, stop):
+    """Fill what a step derives from the state of the padded row j: sums, squares, wave speeds and the pace."""
+    first, count = part(start, stop)
+    for k in range(count):
+        i = k + first
         h1 = c.h1[j, i]
         h2 = c.h2[j, i]
         c.eta[j, i] = h1 + h2
-        c.speed2[j, i] = norm(c.u2[j, i], c.v2[j, i])
-        slow_x, fast_x = chosen_outer_speeds(s, h1, c.u1[j, i], h2, c.u2[j, i])
-        slow_y, fast_y = chosen_outer_speeds(s, h1, c.v1[j, i], h2, c.v2[j, i])
+        c.head2[j, i] = head(s.r, h1 + h2, h2)
+        c.square2[j, i] = c.u2[j, i] * c.u2[j, i] + c.v2[j, i] * c.v2[j, i]
+        slow_x, fast_x = chosen_bounds(s, h1, c.u1[j, i], h2, c.u2[j, i])
+        slow_y, fast_y = chosen_bounds(s, h1, c.v1[j, i], h2, c.v2[j, i])
         c.slow_x[j, i] = slow_x
         c.fast_x[j, i] = fast_x
         c.slow_y[j, i] = slow_y
         c.fast_y[j, i] = fast_y
         c.pace[j, i] = max(fast_x, -slow_x) + max(fast_y, -slow_y)
-
-
-@inlined
-def constant_faces(c, j, left, right, lower, upper, b, u):
-    """First order: the states at all four faces of the padded row j are the cell's."""
-    for i in range(1, c.h1.shape[1] - 1):
-        left.eta[b, i] = right.eta[b, i] = lower.eta[b, i] = upper.eta[u, i] = c.eta[j, i]
-        left.h1[b, i] = right.h1[b, i] = lower.h1[b, i] = upper.h1[u, i] = c.h1[j, i]
-        left.u1[b, i] = right.u1[b, i] = lower.u1[b, i] = upper.u1[u, i] = c.u1[j, i]
-        left.v1[b, i] = right.v1[b, i] = lower.v1[b, i] = upper.v1[u, i] = c.v1[j, i]
-        left.h2[b, i] = right.h2[b, i] = lower.h2[b, i] = upper.h2[u, i] = c.h2[j, i]
-        left.u2[b, i] = right.u2[b, i] = lower.u2[b, i] = upper.u2[u, i] = c.u2[j, i]
-        left.v2[b, i] = right.v2[b, i] = lower.v2[b, i] = upper.v2[u, i] = c.v2[j, i]
 
 
 @inlined
@@ -92,7 +83,7 @@ def put(low, high, b, u, i, state, slopes):
 
 
 @inlined
-def faces(s, c, mk, j, left, right, lower, upper, b, u, dt):
+def faces(s, c, mk, j, left, right, lower, upper, b, u, start, stop, dt):
     """Second order: the states at the four faces of the padded row j, half a step on, and the inner pressure products.
 
     They go to row b of `left`, `right`, `lower` and row u of `upper`. Grains that friction can stop are not
@@ -102,10 +93,13 @@ def faces(s, c, mk, j, left, right, lower, upper, b, u, dt):
     zero = real(0)
     ratio = real(0.5) * dt / s.dx
     static = (real(1) - s.r) * s.friction
-    for i in range(1, c.h1.shape[1] - 1):
+    reach = dt * static
+    first, count = part(start, stop)
+    for k in range(count):
+        i = k + first + 1
         h1, u1, v1 = c.h1[j, i], c.u1[j, i], c.v1[j, i]
         h2, u2, v2 = c.h2[j, i], c.u2[j, i], c.v2[j, i]
-        moving = c.speed2[j, i] > dt * static
+        moving = c.square2[j, i] > reach * reach
         x_h2, x_u2 = grain_slopes(
             s.r, s.dry_depth, moving, c.h2[j, i - 1], c.u2[j, i - 1], h2, u2, c.h2[j, i + 1], c.u2[j, i + 1]
         )
@@ -134,7 +128,7 @@ def faces(s, c, mk, j, left, right, lower, upper, b, u, dt):
         ye, y1, y2 = depth_slopes(h1, h2, y.eta, y.h2)
         ax1, au1, ax2, au2 = rates(s.r, h1, u1, h2, u2, xe, x1, x2, x.u1, x.u2)
         ay1, av1, ay2, av2 = rates(s.r, h1, v1, h2, v2, ye, y1, y2, y.v1, y.v2)
-        still = holds(dt * static, s.dx * static, c.speed2[j, i], norm(au2, av2))
+        still = holds(reach, s.dx * static, c.square2[j, i], au2 * au2 + av2 * av2)
         change1 = max(-h1, ratio * (ax1 + ay1))
         change2 = max(-h2, ratio * (ax2 + ay2))
         m_h1 = h1 + change1
@@ -156,90 +150,78 @@ def faces(s, c, mk, j, left, right, lower, upper, b, u, dt):
 
 
 @inlined
-def central_push(r, c, j, i, step_j, step_i):
-    """Return half the driving jump between the cells either side of (j, i)."""
-    d_eta = c.eta[j + step_j, i + step_i] - c.eta[j - step_j, i - step_i]
-    d_h2 = c.h2[j + step_j, i + step_i] - c.h2[j - step_j, i - step_i]
-    return type(r)(0.5) * drive(r, d_eta, d_h2)
+def central_jump(c, j, i, step_j, step_i):
+    """Return the driving jump between the cells either side of (j, i)."""
+    return c.head2[j + step_j, unsigned(i + step_i)] - c.head2[j - step_j, unsigned(i - step_i)]
 
 
 @inlined
-def fill_stuck(s, c, j, stuck, start_j, start_i, step_j, step_i, dt):
-    """Fill row j of `stuck`, 1 for edges that friction holds; steps (0, 1) for edges along x and (1, 0) along y.
+def fill_stuck(s, c, stuck, j, rows, shift, step, start, stop, dt):
+    """Fill row j of `stuck`, 1 for edges that friction holds, columns start..stop-1 of it.
 
-    The driving force is a vector: its part along the edge is the mean of the central jumps in both cells. (With the
-    normal part alone a cell on a slope across the grid could be too steep to stop, yet pass nothing on.)
+    Edge k lies between the cells k + shift of the padded row rows[0] and k + shift + step of row rows[1]; step is 1
+    for edges along x and 0 along y. The driving force is a vector: its part along the edge is the mean of the central
+    slopes in both cells. (With the normal part alone a cell on a slope across the grid could be too steep to stop, yet
+    pass nothing on.)
     """
     real = type(s.r)
     static = (real(1) - s.r) * s.friction
-    p = j + start_j
-    n = p + step_j
-    for k in range(stuck.shape[1]):
-        i = k + start_i
-        m = i + step_i
-        normal = drive(s.r, c.eta[n, m] - c.eta[p, i], c.h2[n, m] - c.h2[p, i])
-        along = central_push(s.r, c, p, i, step_i, step_j) + central_push(s.r, c, n, m, step_i, step_j)
-        push = norm(normal, real(0.5) * along)
-        held = holds(dt * static, s.dx * static, max(c.speed2[p, i], c.speed2[n, m]), push)
-        stuck[j, k] = real(1) if held else real(0)
+    quarter = real(0.25)
+    p, n = rows
+    across = 1 - step
+    first, count = part(start, stop)
+    for m in range(count):
+        k = m + first
+        i = k + shift
+        here = unsigned(i)
+        there = unsigned(i + step)
+        normal = c.head2[n, there] - c.head2[p, here]
+        along = quarter * (central_jump(c, p, i, step, across) + central_jump(c, n, i + step, step, across))
+        square = max(c.square2[p, here], c.square2[n, there])
+        held = holds(dt * static, s.dx * static, square, normal * normal + along * along)
+        stuck[j, unsigned(k)] = real(1) if held else real(0)
 
 
 @inlined
-def edges_x(s, c, j, left, right, b, fx):
-    """Fill the fluxes through the edges along row j of `fx` (padded row j + 2) from row b of the face states."""
-    zero = type(s.r)(0)
-    p = j + GHOSTS
-    for k in range(fx.f1.shape[1]):
-        i = k + GHOSTS - 1
-        n = i + 1
-        f1, m1, p1, f2, m2, p2 = edge_fluxes(
-            s,
-            fx.stuck[j, k] != zero,
-            min(c.slow_x[p, i], c.slow_x[p, n]),
-            max(c.fast_x[p, i], c.fast_x[p, n]),
-            right.h1[b, i],
-            right.u1[b, i],
-            right.h2[b, i],
-            right.u2[b, i],
-            left.h1[b, n],
-            left.u1[b, n],
-            left.h2[b, n],
-            left.u2[b, n],
-            left.eta[b, n] - right.eta[b, i],
-        )
-        fx.f1[j, k], fx.m1[j, k], fx.p1[j, k] = f1, m1, p1
-        fx.f2[j, k], fx.m2[j, k], fx.p2[j, k] = f2, m2, p2
-        fx.t1[j, k] = f1 * donor(f1, right.v1[b, i], left.v1[b, n])
-        fx.t2[j, k] = f2 * donor(f2, right.v2[b, i], left.v2[b, n])
+def turned(side):
+    """Return a `Side` seen along y: its velocities change places."""
+    return Side(side.eta, side.h1, side.v1, side.u1, side.h2, side.v2, side.u2)
 
 
 @inlined
-def edges_y(s, c, j, lower, upper, b, u, fy):
-    """Fill row j of `fy`, between the padded rows j + 1 (its upper faces, row u) and j + 2 (its lower faces, row b)."""
+def edges(s, f, j, slow, fast, rows, before, after, face_rows, shift, step, start, stop):
+    """Fill the fluxes through the edges of row j of `f`, columns start..stop-1 of it, which `fill_stuck` describes.
+
+    `slow`, `fast` bound the speeds in each cell; `before` and `after` (`Side`) hold the states at the edge's two
+    sides, in their rows face_rows.
+    """
     zero = type(s.r)(0)
-    p = j + GHOSTS - 1
-    n = p + 1
-    for k in range(fy.f1.shape[1]):
-        i = k + GHOSTS
+    p, n = rows
+    b, a = face_rows
+    first, count = part(start, stop)
+    for m in range(count):
+        k = unsigned(m + first)
+        i = unsigned(m + first + shift)
+        o = unsigned(m + first + shift + step)
         f1, m1, p1, f2, m2, p2 = edge_fluxes(
             s,
-            fy.stuck[j, k] != zero,
-            min(c.slow_y[p, i], c.slow_y[n, i]),
-            max(c.fast_y[p, i], c.fast_y[n, i]),
-            upper.h1[u, i],
-            upper.v1[u, i],
-            upper.h2[u, i],
-            upper.v2[u, i],
-            lower.h1[b, i],
-            lower.v1[b, i],
-            lower.h2[b, i],
-            lower.v2[b, i],
-            lower.eta[b, i] - upper.eta[u, i],
+            f.stuck[j, k] != zero,
+            min(slow[p, i], slow[n, o]),
+            max(fast[p, i], fast[n, o]),
+            before.h1[b, i],
+            before.u1[b, i],
+            before.h2[b, i],
+            before.u2[b, i],
+            after.h1[a, o],
+            after.u1[a, o],
+            after.h2[a, o],
+            after.u2[a, o],
+            after.eta[a, o] - before.eta[b, i],
         )
-        fy.f1[j, k], fy.m1[j, k], fy.p1[j, k] = f1, m1, p1
-        fy.f2[j, k], fy.m2[j, k], fy.p2[j, k] = f2, m2, p2
-        fy.t1[j, k] = f1 * donor(f1, upper.u1[u, i], lower.u1[b, i])
-        fy.t2[j, k] = f2 * donor(f2, upper.u2[u, i], lower.u2[b, i])
+        f.f1[j, k], f.m1[j, k], f.p1[j, k] = f1, m1, p1
+        f.f2[j, k], f.m2[j, k], f.p2[j, k] = f2, m2, p2
+        f.t1[j, k] = f1 * donor(f1, before.v1[b, i], after.v1[a, o])
+        f.t2[j, k] = f2 * donor(f2, before.v2[b, i], after.v2[a, o])
 
 
 @inlined
@@ -251,11 +233,14 @@ def outflow(fx, fy, j, k):
 
 
 @inlined
-def marks(s, c, fx, fy, mk, j, dt):
+def marks(s, c, fx, fy, mk, spans, j, dt):
     """Fill `Marks` of row j (padded row j + 2)."""
     ratio = dt / s.dx
     p = j + GHOSTS
-    for k in range(fy.f1.shape[1]):
+    start, stop = joint(spans, p, p, -GHOSTS, -GHOSTS, fy.f1.shape[1])
+    first, count = part(start, stop)
+    for m in range(count):
+        k = m + first
         i = k + GHOSTS
         mk.keep1[p, i] = share(c.h1[p, i], ratio * outflow(fx.f1, fy.f1, j, k), s.dry_depth)
         mk.keep2[p, i] = share(c.h2[p, i], ratio * outflow(fx.f2, fy.f2, j, k), s.dry_depth)
@@ -263,14 +248,17 @@ def marks(s, c, fx, fy, mk, j, dt):
 
 
 @inlined
-def update(s, c, fx, fy, mk, j, dt):
+def update(s, c, fx, fy, mk, spans, j, dt):
     """Advance row j (padded row j + 2) by dt: fluxes, pressure, then Coulomb friction."""
     real = type(s.r)
     half = real(0.5)
     reach = dt * (real(1) - s.r) * s.friction
     ratio = dt / s.dx
     p = j + GHOSTS
-    for k in range(fy.f1.shape[1]):
+    start, stop = joint(spans, p, p, -GHOSTS, -GHOSTS, fy.f1.shape[1])
+    first, count = part(start, stop)
+    for m in range(count):
+        k = m + first
         i = k + GHOSTS
         w1 = ratio * limit(fx.f1[j, k], mk.keep1[p, i - 1], mk.keep1[p, i])
         e1 = ratio * limit(fx.f1[j, k + 1], mk.keep1[p, i], mk.keep1[p, i + 1])
@@ -302,7 +290,7 @@ def update(s, c, fx, fy, mk, j, dt):
         c.h1[p, i] = new1
         c.h2[p, i] = new2
     if is_general(s) and s.law != COULOMB:
-        for i in range(GHOSTS, GHOSTS + fy.f1.shape[1]):
+        for i in range(start + GHOSTS, stop + GHOSTS):
             factor = further(s, dt, c.h2[p, i], norm(c.u2[p, i], c.v2[p, i]))
             c.u2[p, i] *= factor
             c.v2[p, i] *= factor

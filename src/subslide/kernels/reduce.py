@@ -1,21 +1,23 @@
-"""Largest and smallest of a row."""
+"""Largest and smallest of a part of a row."""
 
-from .jit import maximum
+from .jit import maximum, part
 
 
 @maximum
-def largest(row):
-    """Return the largest entry."""
-    top = row[0]
-    for i in range(row.shape[0]):
-        top = max(top, row[i])
+def largest(row, start, stop):
+    """Return the largest of 0 and the entries start..stop-1."""
+    top = type(row[0])(0)
+    first, count = part(start, stop)
+    for k in range(count):
+        top = max(top, row[k + first])
     return top
 
 
 @maximum
-def smallest(row):
-    """Return the smallest entry."""
-    bottom = row[0]
-    for i in range(row.shape[0]):
-        bottom = min(bottom, row[i])
+def smallest(row, start, stop):
+    """Return the smallest of 0 and the entries start..stop-1."""
+    bottom = type(row[0])(0)
+    first, count = part(start, stop)
+    for k in range(count):
+        bottom = min(bottom, row[k + first])
     return bottom

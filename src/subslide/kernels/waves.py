@@ -30,13 +30,13 @@ def newton(x, u1, h1, u2, h2, k):
 
 
 @inlined
-def outer_speeds(h1, u1, h2, u2, r):
-    """Return the slowest and the fastest of the four wave speeds, always real.
+def outer_bounds(h1, u1, h2, u2, r):
+    """Return bounds from outside of the slowest and the fastest wave speed, always real and nearly exact.
 
-    The start is exact for equal velocities and of second order in u1 - u2: the barotropic speed about the mean
-    velocity weighted by how much each layer carries of that wave. It is held between the layers' own speeds (a
-    bound from inside; beyond it the quartic is convex and rising, so Newton's method cannot fail) and
-    max_k(u_k + sqrt(h_k (1 + sqrt r))) (a bound from outside).
+    One Newton step from a start that is exact for equal velocities and of second order in u1 - u2: the barotropic
+    speed about the mean velocity weighted by how much each layer carries of that wave. The start is held between the
+    layers' own speeds (a bound from inside; beyond it the quartic is convex and rising, so Newton's method cannot
+    fail and its steps come from outside) and the step by max_k(u_k + sqrt(h_k (1 + sqrt r))) (a bound from outside).
     """
     real = type(h1)
     half = real(0.5)
@@ -54,6 +54,14 @@ def outer_speeds(h1, u1, h2, u2, r):
     slow = min(mean - c, min(u1 - c1, u2 - c2))
     fast = min(newton(fast, u1, h1, u2, h2, k), fast_limit)
     slow = max(newton(slow, u1, h1, u2, h2, k), slow_limit)
+    return slow, fast
+
+
+@inlined
+def outer_speeds(h1, u1, h2, u2, r):
+    """Return the slowest and the fastest of the four wave speeds: the bounds, brought in by Newton's method."""
+    slow, fast = outer_bounds(h1, u1, h2, u2, r)
+    k = r * h1 * h2
     for _ in range(NEWTON_STEPS - 1):
         fast = newton(fast, u1, h1, u2, h2, k)
         slow = newton(slow, u1, h1, u2, h2, k)
@@ -127,12 +135,12 @@ def approximate_speeds(h1, u1, h2, u2, r):
 
 
 @inlined
-def chosen_outer_speeds(s, h1, u1, h2, u2):
-    """Return the slowest and the fastest wave speed, exact unless the scene chose approximate ones."""
+def chosen_bounds(s, h1, u1, h2, u2):
+    """Return bounds of the slowest and the fastest wave speed, or what approximate speeds give for them."""
     if is_general(s) and s.speeds == APPROXIMATE:
         slow, fast, _, _ = approximate_speeds(h1, u1, h2, u2, s.r)
         return slow, fast
-    return outer_speeds(h1, u1, h2, u2, s.r)
+    return outer_bounds(h1, u1, h2, u2, s.r)
 
 
 @inlined

@@ -30,8 +30,10 @@ class Axial:
         self.cells = allocate(Cells, (padded,), real)
         for field, values in zip(("h1", "u1", "h2", "u2"), state, strict=True):
             getattr(self.cells, field)[GHOSTS:-GHOSTS] = values
-        self.left = allocate(Side, (padded,), real)
-        self.right = allocate(Side, (padded,), real)
+        own = Side(*(getattr(self.cells, field) for field in Side._fields))
+        self.left, self.right = (
+            (own, own) if scene.order == 1 else (allocate(Side, (padded,), real) for _ in range(2))
+        )
         self.fluxes = allocate(Fluxes, (n + 1,), real)
         self.marks = allocate(Marks, (padded,), real)
         self.marks.keep1[:] = self.marks.keep2[:] = 1
@@ -39,7 +41,9 @@ class Axial:
         r = self.x if radial else np.ones(n)
         self.area = (grid.edges if radial else np.ones(n + 1)).astype(real)
         self.inverse_volume = (1 / (r * dx)).astype(real)
-        self.weight = (r * dx * (2 * np.pi if radial else 1)).astype(real)
+        self.weight = np.zeros(padded, real)
+        self.weight[GHOSTS:-GHOSTS] = r * dx * (2 * np.pi if radial else 1)
+        self.total = np.concatenate([[0.0], np.cumsum(self.weight, dtype=np.float64)])
         self.source = np.zeros(padded, real)
         if radial:
             self.source[GHOSTS:-GHOSTS] = -0.5 / self.x
@@ -51,10 +55,9 @@ class Axial:
         near = np.flatnonzero(np.abs(self.x) < watched * dx)
         margin = 64.0 * float(np.finfo(real).eps)
         columns = np.array([beside, beyond, near[0], near[-1] + 1]) + GHOSTS
-        least = (1 - LOST_GRAINS) * float(
-            np.sum(self.weight * self.cells.h2[GHOSTS:-GHOSTS], dtype=np.float64)
-        )
-        self.probe = (self.level, least, *(int(column) for column in columns), margin)
+        least = (1 - LOST_GRAINS) * float(np.sum(self.weight * self.cells.h2, dtype=np.float64))
+        still = state[0][-1], state[2][-1]
+        self.probe = (self.level, least, *(int(column) for column in columns), margin, *still)
 
     def advance(self, thresholds, clock, samples, counters):
         """Run the time loop; see `advance_axial`."""
@@ -68,6 +71,7 @@ class Axial:
             self.area,
             self.inverse_volume,
             self.weight,
+            self.total,
             self.source,
             self.walls,
             self.probe,

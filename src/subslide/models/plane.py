@@ -34,23 +34,30 @@ class Plane:
         for field, values in zip(("h1", "u1", "v1", "h2", "u2", "v2"), state, strict=True):
             getattr(self.cells, field)[inner] = values
         blocks = -(-ny // BLOCK)
-        self.faces = tuple(
-            allocate(Side, (rows, padded[1]), real) for rows in (blocks, blocks, blocks, 2 * blocks)
-        )
+        if scene.order == 1:
+            own = Side(*(getattr(self.cells, field) for field in Side._fields))
+            self.faces = (own,) * 4
+        else:
+            self.faces = tuple(
+                allocate(Side, (rows, padded[1]), real) for rows in (blocks, blocks, blocks, 2 * blocks)
+            )
         self.fluxes = allocate(Fluxes, (ny, nx + 1), real), allocate(Fluxes, (ny + 1, nx), real)
         self.marks = allocate(Marks, padded, real)
         self.marks.keep1[:] = self.marks.keep2[:] = 1
         dx = grid.dx
-        self.weight = np.full(nx, dx * dx, real)
+        self.weight = np.zeros(padded[1], real)
+        self.weight[inner[1]] = dx * dx
+        self.total = np.concatenate([[0.0], np.cumsum(self.weight, dtype=np.float64)])
         self.walls = tuple(bool(wall) for wall in walls)
         column = row = first + GHOSTS
         margin = 64.0 * float(np.finfo(real).eps)
         box = max(GHOSTS, column - watched), min(padded[1] - GHOSTS, column + watched)
         box += max(GHOSTS, row - watched), min(padded[0] - GHOSTS, row + watched)
-        least = (1 - LOST_GRAINS) * float(np.sum(self.weight * self.cells.h2[inner], dtype=np.float64))
-        self.probe = (self.level, least, *box, margin)
+        least = (1 - LOST_GRAINS) * float(np.sum(self.weight * self.cells.h2, dtype=np.float64))
+        self.probe = (self.level, least, *box, margin, state[0][-1, -1], state[3][-1, -1])
         self.inside = columns_within_radius(padded[0], row, column, dx, box[:2])
         self.axis = (row if name == "quarter" else row - 1, row, column)
+        self.spans = np.zeros((padded[0], 4), np.int64)
         self.rows = np.zeros((padded[0], ROW_COLUMNS))
 
     def advance(self, thresholds, clock, samples, counters):
@@ -62,10 +69,12 @@ class Plane:
             *self.fluxes,
             self.marks,
             self.weight,
+            self.total,
             self.walls,
             self.probe,
             self.inside,
             self.axis,
+            self.spans,
             self.rows,
             thresholds,
             clock,

@@ -4,24 +4,24 @@ from ..jit import inlined
 
 
 @inlined
-def drive(r, d_eta, d_h2):
-    """Return d(r h1 + h2), the jump that pushes the grains, exactly zero under a flat surface without grains."""
-    return r * d_eta + (type(r)(1) - r) * d_h2
+def head(r, eta, h2):
+    """Return r h1 + h2, whose slope drives the grains, in a form that is flat to the bit under a flat surface."""
+    return r * eta + (type(r)(1) - r) * h2
 
 
 @inlined
-def holds(reach, bound, speed, push):
+def holds(reach, bound, speed_squared, push_squared):
     """Return whether friction can stop and then hold grains: within this step, and against the driving force.
 
-    `speed` is compared with `reach` = dt (1-r) mu (speeds, not momenta: a dry cell counts as still), the jump |d(r h1
-    + h2)| with `bound` = (1-r) mu dx. An edge is stuck when this is true of both its cells; a cell is stopped when
-    all its edges are stuck, so that fronts that outrun friction never freeze. Without it a first-order pile creeps
-    for ever, and at second order single cells keep trembling.
+    The speed is compared with `reach` = dt (1-r) mu (speeds, not momenta: a dry cell counts as still), the jump |d(r h1
+    + h2)| with `bound` = (1-r) mu dx, both as squares. An edge is stuck when this is true of both its cells; a cell is
+    stopped when all its edges are stuck, so that fronts that outrun friction never freeze. Without it a first-order
+    pile creeps for ever, and at second order single cells keep trembling.
 
     Deviation from the rest condition under Eq. (8) and in Theorem 3.1, garbled in print: the length of the gradient
     is compared with mu, under a flat surface |grad h2| <= mu.
     """
-    return speed <= reach and push <= bound
+    return speed_squared <= reach * reach and push_squared <= bound * bound
 
 
 @inlined
