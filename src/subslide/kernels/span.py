@@ -25,7 +25,7 @@ def moved_span(h1, u1, v1, h2, u2, v2, still, start, stop):
     low = start
     while low < stop and is_still(h1, u1, v1, h2, u2, v2, still, low):
         low += 1
-    high = stop
+    high = max(low, stop)
     while high > low and is_still(h1, u1, v1, h2, u2, v2, still, high - 1):
         high -= 1
     return low, high
@@ -37,7 +37,7 @@ def wet_span(h, dry_depth, start, stop):
     low = start
     while low < stop and h[low] <= dry_depth:
         low += 1
-    high = stop
+    high = max(low, stop)
     while high > low and h[high - 1] <= dry_depth:
         high -= 1
     return low, high
