@@ -9,20 +9,33 @@ from ..diagnostics.front import front_position
 from ..diagnostics.surface import largest_displacement
 from . import clock as k
 from .arrays import GHOSTS
-from .axial import cell_speeds, edges, faces, fill_ghosts, fill_stuck, grain_edges, marks, update
+from .axial import (
+    cell_speeds,
+    edges,
+    faces,
+    fill_ghosts,
+    fill_stuck,
+    grain_edges,
+    marks,
+    update,
+    water_cell_speeds,
+    water_edges,
+    water_faces,
+)
 from .jit import inlined, launch
 from .reduce import largest, smallest
-from .span import moved_span, reached, wet_span
+from .span import grain_span, moved_span, reached, split, water_may_be_alone, wet_span
 
 
 @inlined
-def sample(s, c, weight, total, thresholds, probe, low, high, now, row):
-    """Write one sample into `row`; the columns are named in `clock`. Cells outside low..high-1 are still."""
+def sample(s, c, weight, total, thresholds, probe, low, high, wet, now, row):
+    """Write one sample into `row`; the columns are named in `clock`. Cells outside low..high-1 are still, those outside
+    [wet[0], wet[1]) without grains."""
     level, _, beside, beyond, start, stop, margin, still1, still2 = probe
     n = c.h1.shape[0]
     row[k.TIME] = now
     for m in range(3):
-        row[k.FRONT + m] = front_position(c.h2, c.h2, beside, thresholds[m], s.dx)
+        row[k.FRONT + m] = front_position(c.h2, c.h2, beside, wet[1], thresholds[m], s.dx)
     row[k.ETA] = largest_displacement(c.eta, level, start, stop)
     row[k.ETA_OUTSIDE] = largest_displacement(c.eta, level, beyond, stop)
     water, grains, energy = row_budget(c.h1, c.u1, c.v1, c.h2, c.u2, c.v2, weight, s.r, low, high)
@@ -32,7 +45,7 @@ def sample(s, c, weight, total, thresholds, probe, low, high, now, row):
     row[k.ENERGY] = energy + rest * (0.5 * (s.r * still1 * still1 + still2 * still2) + s.r * still1 * still2)
     row[k.COMPLEX] = 0.0
     if s.layers == 2:
-        left, right = wet_span(c.h2, s.dry_depth, max(low, GHOSTS), min(high, n - GHOSTS))
+        left, right = wet_span(c.h2, s.dry_depth, max(wet[0], GHOSTS), min(wet[1], n - GHOSTS))
         row[k.COMPLEX] = row_nonhyperbolic(
             c.h1, c.u1, c.v1, c.h2, c.u2, c.v2, s.r, s.dry_depth, margin, left, right
         )
@@ -79,22 +92,29 @@ def advance(
     least_grains = probe[1]
     n = counters[k.SAMPLES]
     cells = c.h1.shape[0]
-    first = 0
-    last = cells
+    alone = water_may_be_alone(s)
+    first = wet_first = 0
+    last = wet_last = cells
     whole = True
     code = k.RUNNING
     while code == k.RUNNING:
         fill_ghosts(c, walls[0], walls[1])
-        cell_speeds(s, c, first, last)
+        low, high = split(first, last, wet_first, wet_last)
+        water_cell_speeds(s, c, first, low)
+        cell_speeds(s, c, low, high)
+        water_cell_speeds(s, c, high, last)
         low, high = moved_span(c.h1, c.u1, c.v1, c.h2, c.u2, c.v2, (probe[7], probe[8]), first, last)
+        wet = grain_span(c.h2, c.u2, c.v2, wet_first, wet_last)
         if whole:
-            first = cells
-            last = 0
+            first = wet_first = cells
+            last = wet_last = 0
             whole = False
-        first, last = reached(first, last, low, high, cells)
+        first, last = reached(first, last, low, high, cells, s.lanes)
+        wet_low, wet_high = wet if alone else (low, high)
+        wet_first, wet_last = reached(wet_first, wet_last, wet_low, wet_high, cells, s.lanes)
         now = clock[k.NOW]
         row = samples[n]
-        sample(s, c, weight, total, thresholds, probe, low, high, now, row)
+        sample(s, c, weight, total, thresholds, probe, low, high, wet, now, row)
         finite = math.isfinite(row[k.ENERGY]) and math.isfinite(row[k.WATER] + row[k.GRAINS])
         shallowest = min(smallest(c.h1, low, high), smallest(c.h2, low, high))
         rim = rim_depth(c.h2, walls)
@@ -118,15 +138,22 @@ def advance(
                 dt = real(step)
                 start = max(first - GHOSTS, 0)  # of cells without ghosts; edge k is before cell k
                 end = min(last - GHOSTS, cells - 2 * GHOSTS)
+                wet_start, wet_end = split(start, end, wet_first - GHOSTS, wet_last - GHOSTS)
                 if s.order != 1:
-                    faces(s, c, left, right, mk, source, start, end + 2, dt)
-                fill_stuck(s, c, fx, start, end + 1, dt)
+                    low, high = split(start, end + 2, wet_first - GHOSTS, wet_last - GHOSTS + 1)
+                    faces(s, c, left, right, mk, source, low, high, dt)
+                    water_faces(s, c, left, right, mk, source, start, low, dt)
+                    water_faces(s, c, left, right, mk, source, high, end + 2, dt)
+                low, high = split(start, end + 1, wet_first - GHOSTS, wet_last - GHOSTS)
+                fill_stuck(s, c, fx, low, high, dt)
                 if s.layers == 1:
-                    grain_edges(s, left, right, fx, start, end + 1)
+                    grain_edges(s, left, right, fx, low, high)
                 else:
-                    edges(s, c, left, right, fx, start, end + 1)
-                marks(s, c, fx, mk, area, inverse_volume, start, end, dt)
-                update(s, c, fx, mk, area, inverse_volume, start, end, dt)
+                    edges(s, c, left, right, fx, low, high)
+                    water_edges(s, c, left, right, fx, start, low)
+                    water_edges(s, c, left, right, fx, high, end + 1)
+                marks(s, c, fx, mk, area, inverse_volume, start, end, wet_start, wet_end, dt)
+                update(s, c, fx, mk, area, inverse_volume, start, end, wet_start, wet_end, dt)
                 clock[k.NOW] = stop if now + step >= stop else now + dt
     counters[k.SAMPLES] = n
     counters[k.OUTCOME] = code

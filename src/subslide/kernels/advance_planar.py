@@ -15,9 +15,37 @@ from ..diagnostics.surface import largest_displacement
 from . import clock as k
 from .arrays import GHOSTS
 from .jit import driver, inlined, launch
-from .planar import cell_speeds, edges, faces, fill_ghosts, fill_stuck, marks, turned, update
+from .planar import (
+    cell_speeds,
+    edges,
+    faces,
+    fill_ghosts,
+    fill_stuck,
+    marks,
+    turned,
+    update,
+    water_cell_speeds,
+    water_edges,
+)
 from .reduce import largest, smallest
-from .span import FIRST, HIGH, LAST, LOW, joint, moved_span, wet_span, widen
+from .span import (
+    FIRST,
+    HIGH,
+    LAST,
+    LOW,
+    WET_FIRST,
+    WET_HIGH,
+    WET_LAST,
+    WET_LOW,
+    grain_span,
+    joint,
+    joint_wet,
+    moved_span,
+    split,
+    water_may_be_alone,
+    wet_span,
+    widen,
+)
 
 BLOCK = 16
 """Rows a block: few enough to share among cores, many enough that the row before it costs little."""
@@ -37,6 +65,7 @@ def measure_row(s, c, j, walls, probe, inside, weight, total, span, row):
     low, high = moved_span(h1, u1, v1, h2, u2, v2, (still1, still2), span[FIRST], span[LAST])
     span[LOW] = low
     span[HIGH] = high
+    span[WET_LOW], span[WET_HIGH] = grain_span(h2, u2, v2, span[WET_FIRST], span[WET_LAST])
     row[PACE] = max(largest(c.pace[j], low, high), max(c.pace[j, 0], c.pace[j, nx - 1]))
     row[SQUARE2] = largest(c.square2[j], low, high)
     row[SHALLOWEST] = min(smallest(h1, low, high), smallest(h2, low, high))
@@ -63,16 +92,17 @@ def measure_row(s, c, j, walls, probe, inside, weight, total, span, row):
     row[ROW_ENERGY] = energy + rest * (
         0.5 * (s.r * still1 * still1 + still2 * still2) + s.r * still1 * still2
     )
-    left, right = wet_span(h2, s.dry_depth, max(low, GHOSTS), min(high, nx - GHOSTS))
+    left, right = wet_span(h2, s.dry_depth, max(span[WET_LOW], GHOSTS), min(span[WET_HIGH], nx - GHOSTS))
     row[ROW_COMPLEX] = row_nonhyperbolic(h1, u1, v1, h2, u2, v2, s.r, s.dry_depth, margin, left, right)
 
 
 @inlined
-def collect(s, c, axis, thresholds, rows, now, sample):
+def collect(s, c, axis, thresholds, spans, rows, now, sample):
     """Write one sample from the rows' parts, summed in the rows' order; the columns are named in `clock`."""
     sample[k.TIME] = now
     for m in range(3):
-        sample[k.FRONT + m] = front_position(c.h2[axis[0]], c.h2[axis[1]], axis[2], thresholds[m], s.dx)
+        stop = max(spans[axis[0], WET_HIGH], spans[axis[1], WET_HIGH])
+        sample[k.FRONT + m] = front_position(c.h2[axis[0]], c.h2[axis[1]], axis[2], stop, thresholds[m], s.dx)
     for column in range(k.ETA, k.COLUMNS):
         sample[column] = 0.0
     for j in range(GHOSTS, rows.shape[0] - GHOSTS):
@@ -90,13 +120,16 @@ def survey_row(s, c, walls, probe, inside, weight, total, spans, rows, whole, j)
     nx = c.h1.shape[1]
     span = spans[j]
     if whole:
-        span[FIRST] = 0
-        span[LAST] = nx
-    cell_speeds(s, c, j, span[FIRST], span[LAST])
+        span[FIRST] = span[WET_FIRST] = 0
+        span[LAST] = span[WET_LAST] = nx
+    low, high = split(span[FIRST], span[LAST], span[WET_FIRST], span[WET_LAST])
+    water_cell_speeds(s, c, j, span[FIRST], low)
+    cell_speeds(s, c, j, low, high)
+    water_cell_speeds(s, c, j, high, span[LAST])
     measure_row(s, c, j, walls, probe, inside, weight, total, span, rows[j])
     if whole:
-        span[FIRST] = nx
-        span[LAST] = 0
+        span[FIRST] = span[WET_FIRST] = nx
+        span[LAST] = span[WET_LAST] = 0
 
 
 @launch
@@ -123,14 +156,23 @@ def block_fluxes(s, c, left, right, lower, upper, fx, fy, mk, spans, dt, b, bloc
             faces(s, c, mk, n, left, right, lower, upper, now, new, start, stop, dt)
         if first <= j < ny:
             start, stop = joint(spans, n, n, -GHOSTS, 1 - GHOSTS, nx + 1)
-            fill_stuck(s, c, fx.stuck, j, (n, n), GHOSTS - 1, 1, start, stop, dt)
+            low, high = joint_wet(spans, n, n, -GHOSTS, -GHOSTS, start, stop)  # no grains at either end
+            rows = (n, n)
             sides = (now, now)
-            edges(s, fx, j, c.slow_x, c.fast_x, (n, n), right, left, sides, GHOSTS - 1, 1, start, stop)
+            fill_stuck(s, c, fx.stuck, j, rows, GHOSTS - 1, 1, low, high, dt)
+            edges(s, fx, j, c.slow_x, c.fast_x, rows, right, left, sides, GHOSTS - 1, 1, low, high)
+            water_edges(s, fx, j, c.slow_x, c.fast_x, rows, right, left, sides, GHOSTS - 1, 1, start, low)
+            water_edges(s, fx, j, c.slow_x, c.fast_x, rows, right, left, sides, GHOSTS - 1, 1, high, stop)
         if j >= first:
             start, stop = joint(spans, p, n, -GHOSTS, -GHOSTS, nx)
-            fill_stuck(s, c, fy.stuck, j, (p, n), GHOSTS, 0, start, stop, dt)
+            low, high = joint_wet(spans, p, n, -GHOSTS, -GHOSTS, start, stop)
+            rows = (p, n)
+            sides = (old, now)
             below, above = turned(upper), turned(lower)
-            edges(s, fy, j, c.slow_y, c.fast_y, (p, n), below, above, (old, now), GHOSTS, 0, start, stop)
+            fill_stuck(s, c, fy.stuck, j, rows, GHOSTS, 0, low, high, dt)
+            edges(s, fy, j, c.slow_y, c.fast_y, rows, below, above, sides, GHOSTS, 0, low, high)
+            water_edges(s, fy, j, c.slow_y, c.fast_y, rows, below, above, sides, GHOSTS, 0, start, low)
+            water_edges(s, fy, j, c.slow_y, c.fast_y, rows, below, above, sides, GHOSTS, 0, high, stop)
 
 
 @launch
@@ -199,11 +241,11 @@ def advance_planar(
     while code == k.RUNNING:
         fill_ghosts(c, walls)
         survey(s, c, walls, probe, inside, weight, total, spans, rows, whole)
-        widen(spans, c.h1.shape[1])
+        widen(spans, c.h1.shape[1], s.lanes, water_may_be_alone(s))
         whole = False
         now = clock[k.NOW]
         sample = samples[n]
-        collect(s, c, axis, thresholds, rows, now, sample)
+        collect(s, c, axis, thresholds, spans, rows, now, sample)
         finite = math.isfinite(sample[k.ENERGY]) and math.isfinite(sample[k.WATER] + sample[k.GRAINS])
         n += 1
         code = k.outcome(

@@ -28,6 +28,7 @@ class Scene(NamedTuple):
     cfl: float
     dry_depth: float
     exact_front: int  # 1: grains run onto a dry bed with the exact flux of grains alone
+    lanes: int  # numbers in 64 bytes: a vector
     speeds: int = 0  # see `waves.SPEEDS`
     law: int = 0  # see `friction.LAWS`
     turbulence: float = 0.0  # g / (xi a_2)

@@ -6,14 +6,14 @@ start..stop-1 count from the smallest index that they need.
 """
 
 from .arrays import GHOSTS, is_general
-from .edge import edge_fluxes, grain_edge_fluxes
+from .edge import edge_fluxes, grain_edge_fluxes, water_edge_fluxes
 from .friction import COULOMB, further
 from .friction.coulomb import coulomb, head, holds
-from .jit import inlined, part
+from .jit import inlined, part, unsigned
 from .positivity import limit, share
 from .reconstruct import depth_slopes, grain_slopes, mc, rates
 from .velocity import velocity
-from .waves import chosen_bounds, grain_speeds
+from .waves import chosen_bounds, grain_speeds, water_speeds
 
 
 @inlined
@@ -56,6 +56,20 @@ def cell_speeds(s, c, start, stop):
             c.slow_x[i] = slow
             c.fast_x[i] = fast
             c.pace[i] = max(fast, -slow)
+
+
+@inlined
+def water_cell_speeds(s, c, start, stop):
+    """Fill the same for cells without grains."""
+    first, count = part(start, stop)
+    for k in range(count):
+        i = k + first
+        c.eta[i] = c.h1[i]
+        c.head2[i] = s.r * c.h1[i]
+        slow, fast = water_speeds(c.h1[i], c.u1[i])
+        c.slow_x[i] = slow
+        c.fast_x[i] = fast
+        c.pace[i] = max(fast, -slow)
 
 
 @inlined
@@ -115,6 +129,35 @@ def faces(s, c, left, right, mk, source, start, stop, dt):
 
 
 @inlined
+def water_faces(s, c, left, right, mk, source, start, stop, dt):
+    """Fill the same of the water in cells without grains; see `faces`."""
+    half = type(s.r)(0.5)
+    zero = type(s.r)(0)
+    ratio = half * dt / s.dx
+    first, count = part(start, stop)
+    for k in range(count):
+        i = unsigned(k + first + 1)
+        before = unsigned(k + first)
+        after = unsigned(k + first + 2)
+        h1 = c.h1[i]
+        u1 = c.u1[i]
+        s_u1 = mc(u1 - c.u1[before], c.u1[after] - u1)
+        s_eta, s_h1, _ = depth_slopes(h1, zero, mc(c.eta[i] - c.eta[before], c.eta[after] - c.eta[i]), zero)
+        change = max(-h1, -ratio * (u1 * s_h1 + h1 * s_u1) + dt * source[i] * h1 * u1)
+        m_h1 = h1 + change
+        m_u1 = u1 - ratio * (u1 * s_u1 + s_eta)
+        m_eta = c.eta[i] + change
+        s_eta, s_h1, _ = depth_slopes(m_h1, zero, s_eta, zero)
+        left.eta[i] = m_eta - half * s_eta
+        right.eta[i] = m_eta + half * s_eta
+        left.h1[i] = m_h1 - half * s_h1
+        right.h1[i] = m_h1 + half * s_h1
+        left.u1[i] = m_u1 - half * s_u1
+        right.u1[i] = m_u1 + half * s_u1
+        mk.inner_p1x[i] = m_h1 * s_eta
+
+
+@inlined
 def fill_stuck(s, c, fx, start, stop, dt):
     """Mark the edges start..stop-1 where friction holds the grains on both sides at rest."""
     real = type(s.r)
@@ -169,49 +212,79 @@ def edges(s, c, left, right, fx, start, stop):
 
 
 @inlined
-def marks(s, c, fx, mk, area, inverse_volume, start, stop, dt):
-    """Fill `Marks` of cells; of ghosts `keep` stays 1."""
-    zero = type(s.r)(0)
+def water_edges(s, c, left, right, fx, start, stop):
+    """Fill the water's fluxes of the edges start..stop-1, where no side has grains."""
     first, count = part(start, stop)
     for m in range(count):
-        k = m + first
-        i = k + GHOSTS
-        scale = dt * inverse_volume[k]
-        out1 = scale * (area[k + 1] * max(zero, fx.f1[k + 1]) - area[k] * min(zero, fx.f1[k]))
-        out2 = scale * (area[k + 1] * max(zero, fx.f2[k + 1]) - area[k] * min(zero, fx.f2[k]))
-        mk.keep1[i] = share(c.h1[i], out1, s.dry_depth)
-        mk.keep2[i] = share(c.h2[i], out2, s.dry_depth)
-        mk.held[i] = min(fx.stuck[k], fx.stuck[k + 1])
+        k = unsigned(m + first)
+        i = unsigned(m + first + GHOSTS - 1)
+        j = unsigned(m + first + GHOSTS)
+        fx.f1[k], fx.m1[k], fx.p1[k] = water_edge_fluxes(
+            s,
+            min(c.slow_x[i], c.slow_x[j]),
+            max(c.fast_x[i], c.fast_x[j]),
+            right.h1[i],
+            right.u1[i],
+            left.h1[j],
+            left.u1[j],
+            left.eta[j] - right.eta[i],
+        )
 
 
 @inlined
-def update(s, c, fx, mk, area, inverse_volume, start, stop, dt):
-    """Advance cells by dt: fluxes, pressure, then Coulomb friction."""
-    real = type(s.r)
-    half = real(0.5)
-    reach = dt * (real(1) - s.r) * s.friction
-    ratio = dt / s.dx
+def outflow_share(f, h, area, inverse_volume, dry_depth, dt, k):
+    """Return the fraction of its outflow that a layer can feed in cell k (padded k + 2)."""
+    zero = type(dt)(0)
+    out = dt * inverse_volume[k] * (area[k + 1] * max(zero, f[k + 1]) - area[k] * min(zero, f[k]))
+    return share(h[k + GHOSTS], out, dry_depth)
+
+
+@inlined
+def marks(s, c, fx, mk, area, inverse_volume, start, stop, low, high, dt):
+    """Fill `Marks` of cells, those of grains in low..high-1; of ghosts `keep` stays 1."""
     first, count = part(start, stop)
     for m in range(count):
         k = m + first
-        i = k + GHOSTS
-        before = area[k] * dt * inverse_volume[k]
-        after = area[k + 1] * dt * inverse_volume[k]
-        before1 = before * limit(fx.f1[k], mk.keep1[i - 1], mk.keep1[i])
-        after1 = after * limit(fx.f1[k + 1], mk.keep1[i], mk.keep1[i + 1])
-        before2 = before * limit(fx.f2[k], mk.keep2[i - 1], mk.keep2[i])
-        after2 = after * limit(fx.f2[k + 1], mk.keep2[i], mk.keep2[i + 1])
-        push1 = ratio * (half * (fx.p1[k] + fx.p1[k + 1]) + mk.inner_p1x[i])
-        push2 = ratio * (half * (fx.p2[k] + fx.p2[k + 1]) + mk.inner_p2x[i])
-        h1 = c.h1[i] + (before1 * fx.f1[k] - after1 * fx.f1[k + 1])
-        h2 = c.h2[i] + (before2 * fx.f2[k] - after2 * fx.f2[k + 1])
-        q1 = c.h1[i] * c.u1[i] + (before1 * fx.m1[k] - after1 * fx.m1[k + 1]) - push1
-        q2 = c.h2[i] * c.u2[i] + (before2 * fx.m2[k] - after2 * fx.m2[k + 1]) - push2
-        u2 = velocity(q2, h2, s.dry_depth)
-        c.h1[i] = h1
-        c.h2[i] = h2
-        c.u1[i] = velocity(q1, h1, s.dry_depth)
-        c.u2[i] = u2 * coulomb(reach, abs(u2), mk.held[i])
+        mk.keep1[k + GHOSTS] = outflow_share(fx.f1, c.h1, area, inverse_volume, s.dry_depth, dt, k)
+    first, count = part(low, high)
+    for m in range(count):
+        k = m + first
+        mk.keep2[k + GHOSTS] = outflow_share(fx.f2, c.h2, area, inverse_volume, s.dry_depth, dt, k)
+        mk.held[k + GHOSTS] = min(fx.stuck[k], fx.stuck[k + 1])
+
+
+@inlined
+def advance_layer(s, h, u, f, m, p, keep, inner, area, inverse_volume, dt, k):
+    """Return a layer's depth and momentum in cell k (padded k + 2) after a step."""
+    i = k + GHOSTS
+    before = area[k] * dt * inverse_volume[k] * limit(f[k], keep[i - 1], keep[i])
+    after = area[k + 1] * dt * inverse_volume[k] * limit(f[k + 1], keep[i], keep[i + 1])
+    push = dt / s.dx * (type(dt)(0.5) * (p[k] + p[k + 1]) + inner[i])
+    depth = h[i] + (before * f[k] - after * f[k + 1])
+    return depth, h[i] * u[i] + (before * m[k] - after * m[k + 1]) - push
+
+
+@inlined
+def update(s, c, fx, mk, area, inverse_volume, start, stop, low, high, dt):
+    """Advance cells by dt, grains in low..high-1: fluxes, pressure, then Coulomb friction."""
+    reach = dt * (type(s.r)(1) - s.r) * s.friction
+    first, count = part(start, stop)
+    for m in range(count):
+        k = m + first
+        h, q = advance_layer(
+            s, c.h1, c.u1, fx.f1, fx.m1, fx.p1, mk.keep1, mk.inner_p1x, area, inverse_volume, dt, k
+        )
+        c.h1[k + GHOSTS] = h
+        c.u1[k + GHOSTS] = velocity(q, h, s.dry_depth)
+    first, count = part(low, high)
+    for m in range(count):
+        k = m + first
+        h, q = advance_layer(
+            s, c.h2, c.u2, fx.f2, fx.m2, fx.p2, mk.keep2, mk.inner_p2x, area, inverse_volume, dt, k
+        )
+        u = velocity(q, h, s.dry_depth)
+        c.h2[k + GHOSTS] = h
+        c.u2[k + GHOSTS] = u * coulomb(reach, abs(u), mk.held[k + GHOSTS])
     if is_general(s) and s.law != COULOMB:
-        for i in range(start + GHOSTS, stop + GHOSTS):
+        for i in range(low + GHOSTS, high + GHOSTS):
             c.u2[i] *= further(s, dt, c.h2[i], abs(c.u2[i]))

@@ -5,15 +5,15 @@ Loops over columns start..stop-1 count from the smallest index that they need.
 """
 
 from .arrays import GHOSTS, Side, is_general
-from .edge import edge_fluxes
+from .edge import edge_fluxes, water_edge_fluxes
 from .friction import COULOMB, further
 from .friction.coulomb import coulomb, head, holds
 from .jit import inlined, part, unsigned
 from .positivity import donor, limit, share
 from .reconstruct import depth_slopes, grain_slopes, mc, rates
-from .span import joint
+from .span import joint, joint_wet
 from .velocity import norm, velocity
-from .waves import chosen_bounds
+from .waves import chosen_bounds, water_speeds
 
 
 @inlined
@@ -55,6 +55,24 @@ def cell_speeds(s, c, j, start, stop):
         c.square2[j, i] = c.u2[j, i] * c.u2[j, i] + c.v2[j, i] * c.v2[j, i]
         slow_x, fast_x = chosen_bounds(s, h1, c.u1[j, i], h2, c.u2[j, i])
         slow_y, fast_y = chosen_bounds(s, h1, c.v1[j, i], h2, c.v2[j, i])
+        c.slow_x[j, i] = slow_x
+        c.fast_x[j, i] = fast_x
+        c.slow_y[j, i] = slow_y
+        c.fast_y[j, i] = fast_y
+        c.pace[j, i] = max(fast_x, -slow_x) + max(fast_y, -slow_y)
+
+
+@inlined
+def water_cell_speeds(s, c, j, start, stop):
+    """Fill the same for cells without grains."""
+    first, count = part(start, stop)
+    for k in range(count):
+        i = k + first
+        h1 = c.h1[j, i]
+        c.eta[j, i] = h1
+        c.head2[j, i] = s.r * h1
+        slow_x, fast_x = water_speeds(h1, c.u1[j, i])
+        slow_y, fast_y = water_speeds(h1, c.v1[j, i])
         c.slow_x[j, i] = slow_x
         c.fast_x[j, i] = fast_x
         c.slow_y[j, i] = slow_y
@@ -225,6 +243,30 @@ def edges(s, f, j, slow, fast, rows, before, after, face_rows, shift, step, star
 
 
 @inlined
+def water_edges(s, f, j, slow, fast, rows, before, after, face_rows, shift, step, start, stop):
+    """Fill the water's fluxes through edges where no side has grains; see `edges`."""
+    p, n = rows
+    b, a = face_rows
+    first, count = part(start, stop)
+    for m in range(count):
+        k = unsigned(m + first)
+        i = unsigned(m + first + shift)
+        o = unsigned(m + first + shift + step)
+        f1, m1, p1 = water_edge_fluxes(
+            s,
+            min(slow[p, i], slow[n, o]),
+            max(fast[p, i], fast[n, o]),
+            before.h1[b, i],
+            before.u1[b, i],
+            after.h1[a, o],
+            after.u1[a, o],
+            after.eta[a, o] - before.eta[b, i],
+        )
+        f.f1[j, k], f.m1[j, k], f.p1[j, k] = f1, m1, p1
+        f.t1[j, k] = f1 * donor(f1, before.v1[b, i], after.v1[a, o])
+
+
+@inlined
 def outflow(fx, fy, j, k):
     """Return what leaves cell (j, k) through its four edges, given the mass fluxes along x and y."""
     zero = type(fx[0, 0])(0)
@@ -234,63 +276,76 @@ def outflow(fx, fy, j, k):
 
 @inlined
 def marks(s, c, fx, fy, mk, spans, j, dt):
-    """Fill `Marks` of row j (padded row j + 2)."""
+    """Fill `Marks` of row j (padded row j + 2); those of grains where there are any."""
     ratio = dt / s.dx
     p = j + GHOSTS
     start, stop = joint(spans, p, p, -GHOSTS, -GHOSTS, fy.f1.shape[1])
+    low, high = joint_wet(spans, p, p, -GHOSTS, -GHOSTS, start, stop)
     first, count = part(start, stop)
     for m in range(count):
         k = m + first
         i = k + GHOSTS
         mk.keep1[p, i] = share(c.h1[p, i], ratio * outflow(fx.f1, fy.f1, j, k), s.dry_depth)
+    first, count = part(low, high)
+    for m in range(count):
+        k = m + first
+        i = k + GHOSTS
         mk.keep2[p, i] = share(c.h2[p, i], ratio * outflow(fx.f2, fy.f2, j, k), s.dry_depth)
         mk.held[p, i] = min(min(fx.stuck[j, k], fx.stuck[j, k + 1]), min(fy.stuck[j, k], fy.stuck[j + 1, k]))
 
 
 @inlined
+def advance_layer(ratio, h, u, v, x, y, keep, inner_x, inner_y, j, k):
+    """Return a layer's depth and momenta in cell (j, k) after a step, from its fluxes x and y: (f, m, t, p) each."""
+    half = type(ratio)(0.5)
+    fx, mx, tx, px = x
+    fy, my, ty, py = y
+    p = j + GHOSTS
+    i = k + GHOSTS
+    west = ratio * limit(fx[j, k], keep[p, i - 1], keep[p, i])
+    east = ratio * limit(fx[j, k + 1], keep[p, i], keep[p, i + 1])
+    south = ratio * limit(fy[j, k], keep[p - 1, i], keep[p, i])
+    north = ratio * limit(fy[j + 1, k], keep[p, i], keep[p + 1, i])
+    old = h[p, i]
+    new = old + ((west * fx[j, k] - east * fx[j, k + 1]) + (south * fy[j, k] - north * fy[j + 1, k]))
+    gain_x = (west * mx[j, k] - east * mx[j, k + 1]) + (south * ty[j, k] - north * ty[j + 1, k])
+    gain_y = (south * my[j, k] - north * my[j + 1, k]) + (west * tx[j, k] - east * tx[j, k + 1])
+    push_x = ratio * (half * (px[j, k] + px[j, k + 1]) + inner_x[p, i])
+    push_y = ratio * (half * (py[j, k] + py[j + 1, k]) + inner_y[p, i])
+    return new, old * u[p, i] + (gain_x - push_x), old * v[p, i] + (gain_y - push_y)
+
+
+@inlined
 def update(s, c, fx, fy, mk, spans, j, dt):
     """Advance row j (padded row j + 2) by dt: fluxes, pressure, then Coulomb friction."""
-    real = type(s.r)
-    half = real(0.5)
-    reach = dt * (real(1) - s.r) * s.friction
+    reach = dt * (type(s.r)(1) - s.r) * s.friction
     ratio = dt / s.dx
     p = j + GHOSTS
     start, stop = joint(spans, p, p, -GHOSTS, -GHOSTS, fy.f1.shape[1])
+    low, high = joint_wet(spans, p, p, -GHOSTS, -GHOSTS, start, stop)
+    x, y = (fx.f1, fx.m1, fx.t1, fx.p1), (fy.f1, fy.m1, fy.t1, fy.p1)
     first, count = part(start, stop)
     for m in range(count):
         k = m + first
         i = k + GHOSTS
-        w1 = ratio * limit(fx.f1[j, k], mk.keep1[p, i - 1], mk.keep1[p, i])
-        e1 = ratio * limit(fx.f1[j, k + 1], mk.keep1[p, i], mk.keep1[p, i + 1])
-        s1 = ratio * limit(fy.f1[j, k], mk.keep1[p - 1, i], mk.keep1[p, i])
-        n1 = ratio * limit(fy.f1[j + 1, k], mk.keep1[p, i], mk.keep1[p + 1, i])
-        w2 = ratio * limit(fx.f2[j, k], mk.keep2[p, i - 1], mk.keep2[p, i])
-        e2 = ratio * limit(fx.f2[j, k + 1], mk.keep2[p, i], mk.keep2[p, i + 1])
-        s2 = ratio * limit(fy.f2[j, k], mk.keep2[p - 1, i], mk.keep2[p, i])
-        n2 = ratio * limit(fy.f2[j + 1, k], mk.keep2[p, i], mk.keep2[p + 1, i])
-        h1 = c.h1[p, i]
-        h2 = c.h2[p, i]
-        new1 = h1 + ((w1 * fx.f1[j, k] - e1 * fx.f1[j, k + 1]) + (s1 * fy.f1[j, k] - n1 * fy.f1[j + 1, k]))
-        new2 = h2 + ((w2 * fx.f2[j, k] - e2 * fx.f2[j, k + 1]) + (s2 * fy.f2[j, k] - n2 * fy.f2[j + 1, k]))
-        gain_x1 = (w1 * fx.m1[j, k] - e1 * fx.m1[j, k + 1]) + (s1 * fy.t1[j, k] - n1 * fy.t1[j + 1, k])
-        gain_y1 = (s1 * fy.m1[j, k] - n1 * fy.m1[j + 1, k]) + (w1 * fx.t1[j, k] - e1 * fx.t1[j, k + 1])
-        gain_x2 = (w2 * fx.m2[j, k] - e2 * fx.m2[j, k + 1]) + (s2 * fy.t2[j, k] - n2 * fy.t2[j + 1, k])
-        gain_y2 = (s2 * fy.m2[j, k] - n2 * fy.m2[j + 1, k]) + (w2 * fx.t2[j, k] - e2 * fx.t2[j, k + 1])
-        push_x1 = ratio * (half * (fx.p1[j, k] + fx.p1[j, k + 1]) + mk.inner_p1x[p, i])
-        push_y1 = ratio * (half * (fy.p1[j, k] + fy.p1[j + 1, k]) + mk.inner_p1y[p, i])
-        push_x2 = ratio * (half * (fx.p2[j, k] + fx.p2[j, k + 1]) + mk.inner_p2x[p, i])
-        push_y2 = ratio * (half * (fy.p2[j, k] + fy.p2[j + 1, k]) + mk.inner_p2y[p, i])
-        u2 = velocity(h2 * c.u2[p, i] + (gain_x2 - push_x2), new2, s.dry_depth)
-        v2 = velocity(h2 * c.v2[p, i] + (gain_y2 - push_y2), new2, s.dry_depth)
-        factor = coulomb(reach, norm(u2, v2), mk.held[p, i])
-        c.u1[p, i] = velocity(h1 * c.u1[p, i] + (gain_x1 - push_x1), new1, s.dry_depth)
-        c.v1[p, i] = velocity(h1 * c.v1[p, i] + (gain_y1 - push_y1), new1, s.dry_depth)
-        c.u2[p, i] = factor * u2
-        c.v2[p, i] = factor * v2
-        c.h1[p, i] = new1
-        c.h2[p, i] = new2
+        h, qx, qy = advance_layer(ratio, c.h1, c.u1, c.v1, x, y, mk.keep1, mk.inner_p1x, mk.inner_p1y, j, k)
+        c.h1[p, i] = h
+        c.u1[p, i] = velocity(qx, h, s.dry_depth)
+        c.v1[p, i] = velocity(qy, h, s.dry_depth)
+    x, y = (fx.f2, fx.m2, fx.t2, fx.p2), (fy.f2, fy.m2, fy.t2, fy.p2)
+    first, count = part(low, high)
+    for m in range(count):
+        k = m + first
+        i = k + GHOSTS
+        h, qx, qy = advance_layer(ratio, c.h2, c.u2, c.v2, x, y, mk.keep2, mk.inner_p2x, mk.inner_p2y, j, k)
+        u = velocity(qx, h, s.dry_depth)
+        v = velocity(qy, h, s.dry_depth)
+        factor = coulomb(reach, norm(u, v), mk.held[p, i])
+        c.h2[p, i] = h
+        c.u2[p, i] = factor * u
+        c.v2[p, i] = factor * v
     if is_general(s) and s.law != COULOMB:
-        for i in range(start + GHOSTS, stop + GHOSTS):
+        for i in range(low + GHOSTS, high + GHOSTS):
             factor = further(s, dt, c.h2[p, i], norm(c.u2[p, i], c.v2[p, i]))
             c.u2[p, i] *= factor
             c.v2[p, i] *= factor

@@ -18,15 +18,20 @@ NEWTON_STEPS = 3
 
 @inlined
 def newton(x, u1, h1, u2, h2, k):
-    """Return one Newton step from `x` on ((x-u1)^2-h1)((x-u2)^2-h2) - k; stays where the slope is zero."""
+    """Return one Newton step from `x` on ((x-u1)^2-h1)((x-u2)^2-h2) - k.
+
+    It stays where the slope is zero, and where k is: layers that do not feel each other have speeds u -+ sqrt(h), from
+    which the step starts.
+    """
     real = type(x)
     d1 = x - u1
     d2 = x - u2
     a = d1 * d1 - h1
     b = d2 * d2 - h2
     slope = d1 * b + d2 * a
-    step = (a * b - k) / (slope + slope if slope != real(0) else real(1))
-    return x - (step if slope != real(0) else real(0))
+    moves = slope != real(0) and k != real(0)
+    step = (a * b - k) / (slope + slope if moves else real(1))
+    return x - (step if moves else real(0))
 
 
 @inlined
@@ -66,6 +71,14 @@ def outer_speeds(h1, u1, h2, u2, r):
         fast = newton(fast, u1, h1, u2, h2, k)
         slow = newton(slow, u1, h1, u2, h2, k)
     return slow, fast
+
+
+@inlined
+def water_speeds(h1, u1):
+    """Return the outer speeds of a cell without grains, the bits of `outer_speeds` for h2 = u2 = 0."""
+    c = math.sqrt(h1)
+    zero = type(h1)(0)
+    return min(u1 - c, zero), max(u1 + c, zero)
 
 
 @inlined

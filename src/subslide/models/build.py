@@ -29,6 +29,7 @@ def scaled(point, layers, dx, dry_depth):
         cfl=real(point.cfl),
         dry_depth=real(dry_depth),
         exact_front=int(point.front_flux == "exact" and point.scheme in ("ifcph", "roe")),
+        lanes=64 // real().itemsize,
         speeds=SPEEDS[point.wave_speeds],
         law=LAWS[point.friction],
         turbulence=real(point.g / (point.xi * point.a_2)),

@@ -4,6 +4,7 @@ import numpy as np
 
 from ..kernels.advance_planar import BLOCK, ROW_COLUMNS, advance_planar
 from ..kernels.arrays import GHOSTS, Cells, Fluxes, Marks, Side, allocate
+from ..kernels.span import SPANS
 from .limits import LOST_GRAINS, first_suspect
 
 
@@ -57,7 +58,7 @@ class Plane:
         self.probe = (self.level, least, *box, margin, state[0][-1, -1], state[3][-1, -1])
         self.inside = columns_within_radius(padded[0], row, column, dx, box[:2])
         self.axis = (row if name == "quarter" else row - 1, row, column)
-        self.spans = np.zeros((padded[0], 4), np.int64)
+        self.spans = np.zeros((padded[0], SPANS), np.int64)
         self.rows = np.zeros((padded[0], ROW_COLUMNS))
 
     def advance(self, thresholds, clock, samples, counters):
