@@ -39,6 +39,7 @@ def scene(
         cfl=real(cfl),
         dry_depth=real(1e-6),
         exact_front=int(exact_front),
+        lanes=8,
         speeds=SPEEDS[speeds],
     )
     found = found._replace(**law)
