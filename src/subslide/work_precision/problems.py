@@ -1,20 +1,17 @@
 """Which runs of a study solve one column with many numerics, and which of these are its truth."""
 
 import json
-import math
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from subslide import schema
+from subslide import points, schema
 from subslide.config import COARSENING, solved_model
-from subslide.points import PAPER_RADIUS, Point, from_dict, paper_times, to_dict
+from subslide.points import Point, from_dict, paper_times, to_dict
 
 METHOD = ("model", "scheme", "front_flux", "wave_speeds", "order", "dtype", "cfl")
 """Keys of a method: all numerics but the cells."""
 APART = (*METHOD, "cells", "quantities", "snapshot_times", "fields")
 """Keys in which runs of one problem may differ."""
-BOX = 0.3 / PAPER_RADIUS
-"""Half-width of the region over R in which the water surface is watched."""
 
 
 class Problem(NamedTuple):
@@ -37,20 +34,20 @@ NAMES = {DEFAULT: "default", PAPER: "paper"}
 PLANES = ("quarter", "plane")
 
 
-def problems(points: Iterable[Point]) -> list[Problem]:
-    """Problems among points: columns with runs in the plane and, by the default numerics, on three grids on a radius
-    of which each has twice the cells of the next."""
+def problems(among: Iterable[Point]) -> list[Problem]:
+    """Problems among some points: columns with runs in the plane and, by the default numerics, on three grids on a
+    radius of which each has twice the cells of the next."""
     groups = {}
-    for point in points:
+    for point in among:
         if point.scene == "cylinder":
             groups.setdefault(_physics(point), []).append(point)
     found = [Problem(tuple(group), _truth(group)) for group in groups.values()]
     return [one for one in found if one.truth and any(solved_model(p) in PLANES for p in one.points)]
 
 
-def _truth(points: list[Point]) -> tuple[Point, ...]:
+def _truth(group: list[Point]) -> tuple[Point, ...]:
     """Points of the three finest grids of the default numerics that halve twice; none without."""
-    grids = {point.cells: point for point in points if method(point) == DEFAULT}
+    grids = {point.cells: point for point in group if method(point) == DEFAULT}
     for cells in sorted(grids, reverse=True):
         wanted = [cells / ratio for ratio in (1, *COARSENING.values())]
         if all(n in grids for n in wanted):
@@ -71,7 +68,8 @@ def end_time(point: Point) -> float:
 
 
 def edge_time(point: Point) -> float:
-    """Time (s) up to which waves are compared: until the first one, from R at sqrt(g (H1 + H2)), is at the edge of the
-    watched region. Then the edge has a part, and it is round on a radius but square in the plane."""
-    depth = point.a_2 * point.radius * (1 + point.a_H)
-    return min((BOX - 1) * point.radius / math.sqrt(point.g * depth), end_time(point))
+    """Time (s) up to which waves are compared: until the first is at the edge of the paper's box, or the run's end.
+
+    From then on the edge has a part, and it is round on a radius but square in the plane.
+    """
+    return min(points.edge_time(point.a_H, point.a_2, point.radius, point.g), end_time(point))
