@@ -254,22 +254,25 @@ def test_seconds_in_words(value, text):
     assert quotes.seconds(value) == text
 
 
-def test_other_numerics_are_named():
+def test_other_numerics_are_named_and_the_default_stands_beside():
     row = {
         **dict(zip(problems.METHOD, problems.DEFAULT, strict=True)),
         "id": "p",
         "cells": 80,
         "seconds": 0.004,
     }
-    assert quotes.choice(pd.Series(row)) == "80 cells, 4 ms"
+    default = pd.Series(row)
+    assert quotes.choice(default, default) == "80 cells, 4 ms"
     other = {
-        **row,
         "scheme": "hll",
         "order": 1,
         "dtype": "float32",
         "wave_speeds": "approximate",
         "model": "quarter",
     }
-    assert quotes.choice(pd.Series(other)) == (
-        "quarter, HLL, approximate wave speeds, order 1, float32, 80 cells, 4 ms"
-    )
+    best = pd.Series({**row, **other, "id": "q", "seconds": 0.003})
+    words = "quarter, HLL, approximate wave speeds, order 1, float32, 80 cells, 3 ms"
+    assert quotes.choice(best, default) == f"{words} (default: 80 cells, 4 ms)"
+    nothing = pd.Series({**row, "id": math.nan})
+    assert quotes.choice(best, nothing) == f"{words} (default: none known)"
+    assert quotes.choice(nothing, nothing) == "none known"

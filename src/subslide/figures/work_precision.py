@@ -191,7 +191,7 @@ def _notes(table, hidden):
     if np.isfinite(least):
         notes.append(
             "At the same error in $L_f$ the paper's method in the plane takes at least"
-            f" {_round(least):,} times as long as the default numerics, whatever its grid."
+            f" {_round(least):,} times as long as the default numerics, on each grid that is not right by chance."
         )
     if len(failed):
         words = ", ".join(f"{count} {status}" for status, count in failed.items())

@@ -25,6 +25,8 @@ UNUSUAL = {
     "cfl": "CFL {:g}",
 }
 """Words on values that are not the default."""
+SOLVERS = {"rusanov": "Rusanov", "roe": "Roe"}
+"""Names of solvers that are no abbreviations."""
 
 
 def text(runs: pd.DataFrame, chosen: pd.DataFrame) -> str:
@@ -48,25 +50,38 @@ def _tables(runs: pd.DataFrame, chosen: pd.DataFrame):
 
 
 def choices(chosen: pd.DataFrame) -> list[tuple[str, ...]]:
-    """Rows, headings first: the cheapest of all runs for each target and column, an entry for each quantity.
+    """Rows, headings first: the cheapest run for each target and column, an entry for each quantity.
 
-    chosen: table of `cheapest`. Numerics are named where they are not the default.
+    chosen: table of `cheapest`. The last entry is what the paper's method takes beside the default numerics.
     """
-    rows = [("error at most", "a_H", *HEADINGS.values(), "paper's method in the plane, L_f")]
-    best = chosen[chosen["numerics"] == "any"]
-    for (target, *place), group in best.groupby(["target", *runs_of.PLACE], sort=False):
-        group = group.set_index("quantity")
-        entries = [choice(group.loc[name]) for name in HEADINGS]
-        rows.append((f"{100 * target:g} %", f"{place[0]:g}", *entries, paper(group.loc["L_f"])))
-    head, *rest = rows
-    return [head, *sorted(rest, key=lambda row: (float(row[1]), -float(row[0].split()[0])))]
+    head = ("error at most", "a_H", *HEADINGS.values(), "paper's method in the plane, L_f")
+    rows = []
+    for (target, *place), group in chosen.groupby(["target", *runs_of.PLACE], sort=False):
+        kinds = {name: some.set_index("quantity") for name, some in group.groupby("numerics")}
+        entries = [choice(*(kinds[kind].loc[name] for kind in ("any", "default"))) for name in HEADINGS]
+        beside = paper(kinds["default"].loc["L_f"])
+        rows.append((place, -target, (f"{100 * target:g} %", f"{place[0]:g}", *entries, beside)))
+    return [head, *(words for *_, words in sorted(rows))]
 
 
-def choice(row: pd.Series) -> str:
-    """Cells and seconds of a row of the table of cheapest choices, and its numerics where they are not the default."""
-    if not isinstance(row["id"], str):
+def choice(best: pd.Series, default: pd.Series) -> str:
+    """Words on the cheapest run of all, and on the cheapest by the default numerics where that is another.
+
+    best, default: rows of the table of cheapest choices.
+    """
+    if not isinstance(best["id"], str):
         return "none known"
-    return ", ".join([*unusual(row), f"{row['cells']:.0f} cells", seconds(row["seconds"])])
+    words = ", ".join([*unusual(best), *_cost(best)])
+    if best["id"] == default["id"]:
+        return words
+    return (
+        f"{words} (default: {', '.join(_cost(default)) if isinstance(default['id'], str) else 'none known'})"
+    )
+
+
+def _cost(row: pd.Series) -> tuple[str, str]:
+    """Cells and time of a row, in words."""
+    return f"{row['cells']:.0f} cells", seconds(row["seconds"])
 
 
 def unusual(row: pd.Series) -> list[str]:
@@ -75,7 +90,7 @@ def unusual(row: pd.Series) -> list[str]:
     words = []
     for key, value in usual.items():
         if row[key] != value:
-            name = row[key].upper() if key == "scheme" else row[key]
+            name = SOLVERS.get(row[key], row[key].upper()) if key == "scheme" else row[key]
             words.append(UNUSUAL.get(key, "{}").format(int(name) if key == "order" else name))
     return words
 
