@@ -175,7 +175,14 @@ def test_factors_are_those_at_equal_error(folder):
     assert paper["factor"].tolist() == pytest.approx([1 / 1e-3, 8 / 1e-3, 64 / 1e-3])
     assert of(read(found), method="default")["factor"].tolist() == pytest.approx([1] * 4)
     assert of(read(found), scheme="hll")["factor"].tolist() == pytest.approx([2] * 4)
-    assert cheapest.equal_accuracy(read(found))["cells"].tolist() == [40, 80, 160]
+    assert table.reached(of(read(found)))["cells"].tolist() == [40, 80, 160]
+
+
+def test_the_finest_grid_is_no_surer_than_its_change(folder):
+    """No finer grid tells whether its error is small by chance."""
+    lucky = lambda point: 0.0 if (point.scheme, point.cells) == ("hll", 320) else error_of(point)  # noqa: E731
+    hll = of(read(folder(lucky)), scheme="hll")
+    assert hll["sure_error"].tolist() == pytest.approx([0.04, 0.02, 0.01, 0.01], rel=1e-6)
 
 
 def test_cheapest_choices(folder):

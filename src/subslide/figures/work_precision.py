@@ -6,6 +6,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
 
 from subslide.figures import _style, _words
+from subslide.work_precision.table import reached
 
 TITLE = "Speed against accuracy"
 CATEGORY = "7 Verification"
@@ -123,9 +124,9 @@ def _factors(ax, rows):
 
 
 def _reached(rows):
-    """Return the runs of the paper's method that reach their error: no finer grid of it has a larger one."""
-    paper = rows[(rows["method"] == "paper") & (rows["error"] == rows["sure_error"])]
-    return paper[paper["factor"].notna()].sort_values("cells")
+    """Return the runs of the paper's method whose error counts, and that have a factor."""
+    found = reached(rows)
+    return found[found["factor"].notna()]
 
 
 def _round(value):

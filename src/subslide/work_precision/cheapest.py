@@ -58,12 +58,3 @@ def choice(rows: list[dict], paper: list[dict], target: float) -> dict:
         found |= {"paper_error": beside["sure_error"], "paper_reaches": equal is not None}
         found["factor"] = beside["seconds"] / best["seconds"]
     return found
-
-
-def equal_accuracy(runs: pd.DataFrame, quantity: str = "L_f") -> pd.DataFrame:
-    """Runs of the paper's method that reach their error, each with its factor over the default numerics.
-
-    A run reaches its error if no finer grid of the method has a larger one.
-    """
-    paper = runs[(runs["method"] == "paper") & (runs["quantity"] == quantity)]
-    return paper[paper["error"] == paper["sure_error"]].sort_values([*runs_of.PLACE, "cells"])

@@ -6,7 +6,6 @@ import pandas as pd
 
 from subslide import marks
 from subslide.schema import ConfigError
-from subslide.work_precision import cheapest
 from subslide.work_precision import table as runs_of
 from subslide.work_precision.problems import DEFAULT, METHOD
 
@@ -110,7 +109,7 @@ def equal(runs: pd.DataFrame) -> list[tuple[str, ...]]:
     rows = [
         ("a_H", "paper's method: cells", "time", "error in L_f", "default: cells", "time", "error", "factor")
     ]
-    for _, row in cheapest.equal_accuracy(runs).iterrows():
+    for _, row in runs_of.reached(runs[runs["quantity"] == "L_f"]).iterrows():
         same = runs[(runs["method"] == "default") & (runs["quantity"] == row["quantity"])]
         same = same[(same[list(runs_of.PLACE)] == row[list(runs_of.PLACE)]).all(axis=1)]
         best = runs_of.cheapest(same.to_dict("records"), row["sure_error"])
