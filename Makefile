@@ -36,7 +36,7 @@ bench-peers: $(READY)  ## run GeoClaw and PyClaw beside subslide (builds them on
 	@$(BIN)/python benchmarks/peers/run.py
 
 .PHONY: verify
-verify: $(READY)  ## run the study of exact solutions and hold the required orders of accuracy
+verify: $(READY)  ## exact solutions, and error against seconds of all numerics; hold the required orders (15 minutes on 2 cores)
 	@$(BIN)/snakemake --configfile config/accuracy.yaml --cores "$$CORES"
 	@$(BIN)/subslide verify results/accuracy
 

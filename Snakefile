@@ -6,6 +6,7 @@ from snakemake.exceptions import WorkflowError
 from subslide import exact, figures, ledger, source_hash
 from subslide.config import make_study
 from subslide.schema import ConfigError
+from subslide.work_precision.problems import problems
 
 if not workflow.overwrite_configfiles:  # never merged with a file that the user gives
 

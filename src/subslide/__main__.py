@@ -151,21 +151,36 @@ def verify(results, output):
     Exit status: 0 if every required order is reached and grains at rest are still; 1 if not; 2 for bad input.
     """
     from subslide import verification
-    from subslide.atomic import write_text
 
     text, missed = verification.report(Path(results))
     click.echo(text)
     if output:
-        try:
-            page = Path(output).read_text(encoding="utf-8")
-        except FileNotFoundError:
-            raise ConfigError(
-                f"--output: {output}: there is no such file; allowed: a page to renew"
-            ) from None
-        write_text(output, verification.page(page, Path(results)))
+        _renew(output, lambda page: verification.page(page, Path(results)))
     for line in missed:
         click.echo(f"subslide: required, but {line.verdict}: {', '.join(line.words()[:4])}", err=True)
     return FAULT if missed else 0
+
+
+@cli.command("work-precision")
+@click.argument("results")
+@click.option(
+    "-o",
+    "--output",
+    metavar="FILE.md",
+    multiple=True,
+    help="page whose tables of the last run are written anew",
+)
+def work_precision(results, output):
+    """Chart error against seconds for a study that sweeps numerics; RESULTS is its folder, such as results/accuracy.
+
+    Writes RESULTS/tables/work_precision.csv and cheapest.csv, and prints the cheapest choices.
+    """
+    from subslide import work_precision as chart
+
+    paths, text = chart.write(Path(results))
+    click.echo("\n".join([text, "", *map(str, paths)]))
+    for page in output:
+        _renew(page, lambda words: chart.page(words, Path(results)))
 
 
 @cli.command()
@@ -206,6 +221,17 @@ def docs():
             raise ConfigError(f"{path}: there is no such folder here; allowed: the root of the repository")
         write_text(path, text)
         click.echo(path)
+
+
+def _renew(path: str, renewed) -> None:
+    """Nothing; the page at `path` is what `renewed` makes of its text."""
+    from subslide.atomic import write_text
+
+    try:
+        page = Path(path).read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise ConfigError(f"--output: {path}: there is no such file; allowed: a page to renew") from None
+    write_text(path, renewed(page))
 
 
 def main(arguments: list[str] | None = None) -> int:

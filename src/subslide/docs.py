@@ -1,6 +1,8 @@
 """Pages of documentation that follow from the code, so that each fact has one place."""
 
 from subslide import bands, claims, convergence, errors, fields, scenes, schema, tables
+from subslide.work_precision import cheapest
+from subslide.work_precision import table as work_precision
 
 CONFIG_PAGE, TABLES_PAGE, RECORDS_PAGE = "config/README.md", "docs/tables.md", "docs/records.md"
 
@@ -195,6 +197,8 @@ def columns() -> str:
             _section("bands.csv", _bands_text(), bands.COLUMNS),
             _section("claims.csv", _claims_text(), claims.COLUMNS),
             _section("errors.csv", _errors_text(), errors.COLUMNS),
+            _section("work_precision.csv", _work_precision_text(), work_precision.COLUMNS),
+            _section("cheapest.csv", _cheapest_text(), cheapest.COLUMNS),
         )
     )
 
@@ -251,6 +255,26 @@ Quantities:
 Verdicts:
 
 {verdicts}"""
+
+
+def _work_precision_text() -> str:
+    """What the table of errors and seconds holds."""
+    quantities = "\n".join(f"- `{name}`: {text}" for name, text in work_precision.QUANTITIES.items())
+    return f"""One row for each run and quantity, in studies that solve a column in the plane and, by the default
+numerics, on three grids on a radius of which each has twice the cells of the next. The three finest of these give the
+truth: Richardson's limit, with the band of bands.csv about it. The error is the mean of |value - truth| over the mean
+of the truth: of one length, or of a series at {work_precision.TIMES} times. docs/work_precision.md has the reasons.
+
+Quantities:
+
+{quantities}"""
+
+
+def _cheapest_text() -> str:
+    """What the table of cheapest choices holds."""
+    targets = ", ".join(f"{100 * target:g}" for target in cheapest.TARGETS)
+    return f"""One row for each column, quantity, error that is asked for ({targets} %) and choice, of the runs in
+work_precision.csv: the cheapest run whose `sure_error` is no larger. No value is interpolated between runs."""
 
 
 def _section(title: str, text: str, rows: dict[str, tuple[str, str]]) -> str:

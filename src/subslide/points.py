@@ -13,9 +13,18 @@ PAPER_TIMES = (0.08, 0.16, 0.24, 0.54)
 """Times (s) after release at which the paper shows its column."""
 
 
+PAPER_BOX = 0.3 / PAPER_RADIUS
+"""Half-width over R of the paper's box, where the water surface is watched in a box of any size."""
+
+
 def paper_times(radius: float) -> tuple[float, ...]:
     """The paper's times (s) for a column of another radius (m), in proportion to its root."""
     return tuple(time * math.sqrt(radius / PAPER_RADIUS) for time in PAPER_TIMES)
+
+
+def edge_time(a_H: float, a_2: float, radius: float, g: float) -> float:
+    """Time (s) when the first wave, from R at sqrt(g (H1 + H2)), is at the edge of the paper's box."""
+    return (PAPER_BOX - 1) * radius / math.sqrt(g * a_2 * radius * (1 + a_H))
 
 
 @dataclass(frozen=True)

@@ -61,6 +61,12 @@ class Results:
         """Table of errors against exact solutions (tables/errors.csv), of a study that has any."""
         return pd.read_csv(self.folder / "tables" / "errors.csv")
 
+    @functools.cached_property
+    def work_precision(self) -> pd.DataFrame:
+        """Table of errors and seconds (tables/work_precision.csv); empty for a study without a sweep of numerics."""
+        path = self.folder / "tables" / "work_precision.csv"
+        return pd.read_csv(path) if path.exists() else pd.DataFrame()
+
     def select(self, **values) -> pd.DataFrame:
         """Rows of the table of runs whose columns equal the given values; numbers to nine digits."""
         chosen = np.ones(len(self.runs), bool)

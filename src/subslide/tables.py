@@ -16,13 +16,11 @@ import xarray as xr
 from subslide import bands, fields, schema
 from subslide.atomic import replacing, write_text
 from subslide.config import COARSENING
-from subslide.points import RUN_KEYS, Point, friction_number, from_dict, options_text
+from subslide.points import PAPER_BOX, RUN_KEYS, Point, friction_number, from_dict, options_text
 from subslide.results import Results, trimmed
 
 MOST_RUNS_IN_CSV = 1000
 THRESHOLDS = bands.THRESHOLDS
-PAPER_BOX = 4.2553
-"""Half-width of the smallest box over R."""
 
 COLUMNS = {
     "id": ("", "name of the run; depends on its values alone"),

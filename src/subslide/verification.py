@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import pandas as pd
 
-from subslide import errors
+from subslide import errors, marks
 from subslide.schema import ConfigError
 
 GROUP = ["case", "quantity", "scheme", "order", "front_flux", "wave_speeds", "dtype"]
@@ -119,11 +119,4 @@ def read(folder: Path) -> pd.DataFrame:
 
 def page(text: str, folder: Path) -> str:
     """The page of documentation `text` with the table of a study between its two marks."""
-    if START not in text or END not in text:
-        raise ConfigError(
-            f"--output: the page lacks the lines '{START}' and '{END}' that its table goes between"
-        )
-    rows = [HEADINGS, ("---",) * len(HEADINGS), *(line.words() for line in lines(read(folder)))]
-    table = "\n".join("| " + " | ".join(words) + " |" for words in rows)
-    before, rest = text.split(START, 1)
-    return f"{before}{START}\n\n{table}\n\n{END}{rest.split(END, 1)[1]}"
+    return marks.renewed(text, START, END, [HEADINGS, *(line.words() for line in lines(read(folder)))])

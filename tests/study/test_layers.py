@@ -36,7 +36,10 @@ LIGHT = (
     "points",
     "jobs",
     "layout",
+    "marks",
     "records",
+    "work_precision/__init__",
+    "work_precision/problems",
 )
 FORBIDDEN = {
     "fields": SOLVING | STUDY | HEAVY | {"points", "schema"},
@@ -53,6 +56,7 @@ FORBIDDEN = {
     "tables": SOLVING,
     "errors": SOLVING,
     "verification": SOLVING,
+    "work_precision": SOLVING,
     "ledger": SOLVING | HEAVY,
     **{name: HEAVY for name in LIGHT},
 }

@@ -189,3 +189,18 @@ def test_studies_are_not_merged(project):
     assert set(project.runs()["delta"]) == {32}
     assert project.runs()["numerics"].tolist() == ["default", "default"]
     assert project.runs()["cells"].tolist() == [20, 20]
+
+
+def test_a_sweep_of_numerics_is_charted_and_other_studies_are_not(project):
+    cases = "  - {model: radial, cells: [20, 40, 80]}\n  - {model: plane, order: 1, front_flux: hll}\n"
+    sweep = f"study: small\nr: 0.4\ncells: 20\nt_end: 0.05\nfigures: [work_precision]\ncases:\n{cases}"
+    project.configure(sweep)
+    jobs = project.jobs("-n")
+    assert jobs["work_precision"] == jobs["figure_work_precision"] == 1
+    project.snakemake("--until", "work_precision")
+    rows = pd.read_csv(project.results / "tables/work_precision.csv")
+    assert rows[rows["quantity"] == "L_f"]["method"].tolist() == ["default"] * 3 + ["paper"]
+    assert rows["error"].notna().all()
+    assert (project.results / "tables/cheapest.csv").exists()
+    project.configure(STUDY)
+    assert "work_precision" not in project.jobs("-n")

@@ -92,3 +92,39 @@ if any(point.scene in exact.NAMES for point in STUDY.points):
             "subslide errors {params.results:q} > {log:q} 2>&1"
 
     TABLES = [*TABLES, RESULTS / "tables/errors.csv"]
+
+
+# Error against seconds, where one column is solved by many numerics and to a converged answer.
+if problems(STUDY.points):
+
+    rule work_precision:
+        input:
+            points=RESULTS / "points.json",
+            records=RECORDS,
+        output:
+            report(
+                RESULTS / "tables/work_precision.csv",
+                caption="../report/work_precision.rst",
+                category="5 Tables",
+                labels={"figure": "Error and seconds of every choice of numerics"},
+            ),
+            report(
+                RESULTS / "tables/cheapest.csv",
+                caption="../report/work_precision.rst",
+                category="5 Tables",
+                labels={"figure": "Cheapest choices of numerics"},
+            ),
+        log:
+            RESULTS / "logs/work_precision.log",
+        benchmark:
+            RESULTS / "benchmarks/work_precision.tsv"
+        resources:
+            mem_mb=2000,
+            runtime=30,
+        params:
+            sources=source_hash("figure"),
+            results=RESULTS,
+        shell:
+            "subslide work-precision {params.results:q} > {log:q} 2>&1"
+
+    TABLES = [*TABLES, *rules.work_precision.output]

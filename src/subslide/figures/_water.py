@@ -3,10 +3,9 @@
 import numpy as np
 import pandas as pd
 
+from subslide import points
 from subslide.figures import _kinds, _slices, _words
 
-BOX = 0.3 / 0.0705
-"""Half-width of the paper's box over R: where displacements of the surface are watched."""
 OUTSIDE = "max_abs_eta_outside"
 
 
@@ -26,9 +25,8 @@ def buoyant(runs):
 
 
 def edge_time(row):
-    """Return when (s) the first wave, from R at sqrt(g (H1 + H2)), is at the edge of the box."""
-    depth = row["a_2"] * row["radius"] * (1 + row["a_H"])
-    return (BOX - 1) * row["radius"] / np.sqrt(row["g"] * depth)
+    """Return when (s) the first wave of a run is at the edge of the paper's box."""
+    return points.edge_time(row["a_H"], row["a_2"], row["radius"], row["g"])
 
 
 def convergence(results, found, times, unit):

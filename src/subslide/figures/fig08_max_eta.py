@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from subslide.figures import _kinds, _slices, _style, _water, _words
-from subslide.points import PAPER_TIMES, paper_times
+from subslide.points import PAPER_BOX, PAPER_TIMES, paper_times
 
 TITLE = "Largest displacement of the water surface against time"
 CATEGORY = "3 Water surface"
@@ -83,7 +83,7 @@ def _notes(results, found, shown, marks, unit):
     scaled = "" if np.allclose(marks, PAPER_TIMES) else " scaled by $\\sqrt{R}$"
     return [
         f"Dotted lines and symbols: {times} {unit.name}, the paper's times{scaled}. Grey: waves from $R$ have "
-        f"reached the edge of the watched box (half-width {_water.BOX:.2f} $R$); from then on its boundary has a part. "
+        f"reached the edge of the watched box (half-width {PAPER_BOX:.2f} $R$); from then on its boundary has a part. "
         f"Each row has its own scale.{_longest(found)}",
         *_water.convergence(results, found, marks[:2], unit),
     ]

@@ -3,6 +3,7 @@
 import numpy as np
 
 from subslide.figures import _profiles, _slices, _style, _water, _words
+from subslide.points import PAPER_BOX
 
 TITLE = "Water surface along x at the paper's times"
 CATEGORY = "3 Water surface"
@@ -52,7 +53,7 @@ def draw(results):
     for ax in axes[::columns]:  # round-off about a level surface is no wave
         low, high = ax.get_ylim()
         ax.set_ylim(min(low, -least), max(high, least))
-    far = _water.BOX * radius
+    far = PAPER_BOX * radius
     axes[0].set_xlim(_profiles.start(shapes.values(), far) * x_unit.factor, far * x_unit.factor)
     for ax in axes[::columns]:
         ax.set_ylabel(_words.label("eta", unit))

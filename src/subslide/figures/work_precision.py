@@ -1,0 +1,202 @@
+"""Error against seconds for every choice of numerics: a panel for each quantity and depth of water."""
+
+import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
+
+from subslide.figures import _style, _words
+from subslide.work_precision.table import reached
+
+TITLE = "Speed against accuracy"
+CATEGORY = "7 Verification"
+NEEDS = {"scene": ("cylinder",), "model": ("plane", "radial"), "order": (1, 2)}
+QUANTITIES = {
+    "L_f": "$L_f$",
+    "x_front": "$x_\\mathrm{front}(t)$",
+    "max_abs_eta": "max$\\,|\\eta|(t)$",
+    "max_abs_eta_outside": "max$\\,|\\eta|(t)$ beyond $R$",
+}
+MODELS = {"radial": "o", "quarter": "s", "plane": "^"}
+STRONG = {
+    "default": {"color": "black", "label": "default numerics on a radius"},
+    "paper": {"color": "#c8102e", "label": "the paper's method in the plane"},
+}
+TICKS = (0.01, 0.05, 0.1, 0.5, 1, 2, 5, 10, 20, 50, 100)
+MOST_COLUMNS = 3
+
+
+@_style.styled
+def draw(results):
+    """Return the figure: errors in per cent against seconds of the time loop, both on logarithmic scales."""
+    table = results.work_precision
+    if table.empty:
+        raise _style.NoRunsError("a sweep of numerics with a converged answer")
+    places = table[["a_H", "a_2", "r", "delta"]].drop_duplicates()
+    shown = places.head(MOST_COLUMNS)
+    looks = _style.keys_to(dict.fromkeys(table["scheme"]), palette="viridis", light=0.9)
+    figure, axes = _style.panels(len(QUANTITIES) * len(shown), len(shown), 2.1, sharex=True, sharey="row")
+    for k, ax in enumerate(axes):
+        quantity, place = list(QUANTITIES)[k // len(shown)], shown.iloc[k % len(shown)]
+        rows = table[(table["quantity"] == quantity) & (table[list(shown)] == place).all(axis=1)]
+        _panel(ax, rows, looks)
+        ax.set_title(_words.panel(k, f"{QUANTITIES[quantity]}, {_words.equation('a_H', place['a_H'])}"))
+        ax.set_ylabel(f"error of {QUANTITIES[quantity]} (%)" if k % len(shown) == 0 else "")
+    for ax in _style.bottom_row(axes, len(shown)):
+        ax.set_xlabel("time of a run (s)")
+    same = [
+        _words.equation(key, places[key].iloc[0])
+        for key in ("a_2", "r", "delta")
+        if places[key].nunique() == 1
+    ]
+    return _style.finish(
+        figure,
+        TITLE,
+        ", ".join(same),
+        _notes(table, len(places) - len(shown)),
+        _entries(looks, table),
+        6,
+        _lines(),
+    )
+
+
+def _panel(ax, rows, looks):
+    """Nothing; all runs are in `ax` as symbols, and on them the front, the two methods and the factors between."""
+    ax.set(xscale="log", yscale="log")
+    rows = rows[rows["sure_error"].notna()]
+    for (scheme, model, order), some in rows.groupby(["scheme", "model", "order"]):
+        look = {**_symbol(looks[scheme]["color"], model, order), "alpha": 0.5}
+        ax.plot(some["seconds"], 100 * some["sure_error"], zorder=2, **look)
+    front = rows[rows["on_front"]].sort_values("seconds")
+    ax.step(front["seconds"], 100 * front["sure_error"], where="post", **_FRONT)
+    for name, line in STRONG.items():
+        some = rows[rows["method"] == name].sort_values("cells")
+        if not some.empty:
+            order, model = some[["order", "model"]].iloc[0]
+            ax.plot(some["seconds"], 100 * some["sure_error"], color=line["color"], linewidth=1.2, zorder=4)
+            mark = _symbol(line["color"], model, order) | {"markersize": 3.6, "zorder": 5}
+            ax.plot(some["seconds"], 100 * some["sure_error"], **mark)
+            _counts(ax, some, line["color"], name)
+    _factors(ax, rows)
+    low = 100 * rows["uncertainty"].max()
+    ax.axhspan(low / 1e3, low, color="0.93", zorder=0, linewidth=0)
+    ax.set_ylim(bottom=low / 1.5)
+    ax.yaxis.set_major_locator(FixedLocator(TICKS))
+    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    ax.yaxis.set_minor_formatter(NullFormatter())
+    ax.xaxis.set_major_locator(LogLocator(numticks=12))
+
+
+def _counts(ax, rows, color, name):
+    """Nothing; cells of some runs of a method stand beside their symbols."""
+    for _, row in rows.iterrows():
+        if name == "paper" or row["cells"] in (25, 100, 400, 1600, 6400, 25600):
+            ax.annotate(
+                f"{row['cells']:.0f}",
+                (row["seconds"], 100 * row["sure_error"]),
+                xytext=(3, 3),
+                textcoords="offset points",
+                fontsize=6,
+                color=color,
+                zorder=6,
+            )
+
+
+def _factors(ax, rows):
+    """Nothing; an arrow at the error of the paper's method on its finest grid leads to the default numerics."""
+    color = STRONG["paper"]["color"]
+    for _, row in _reached(rows).tail(1).iterrows():
+        height, right = 100 * row["sure_error"], row["seconds"]
+        left = right / row["factor"]
+        arrow = {"arrowstyle": "-|>", "color": color, "linewidth": 0.7, "shrinkA": 4, "shrinkB": 0}
+        ax.annotate("", (left, height), (right, height), arrowprops=arrow, zorder=3)
+        ax.text(
+            np.sqrt(left * right),
+            height,
+            f"{_round(row['factor']):,} times",
+            fontsize=7,
+            color=color,
+            ha="center",
+            va="center",
+            zorder=6,
+            bbox={"facecolor": "white", "alpha": 0.85, "linewidth": 0, "pad": 0.6},
+        )
+
+
+def _reached(rows):
+    """Return the runs of the paper's method whose error counts, and that have a factor."""
+    found = reached(rows)
+    return found[found["factor"].notna()]
+
+
+def _round(value):
+    """Return a factor to two digits, rounded down."""
+    digits = 10 ** max(int(np.floor(np.log10(value))) - 1, 0)
+    return int(value // digits * digits)
+
+
+_FRONT = {"color": "#f2a900", "linewidth": 3.5, "alpha": 0.75, "zorder": 1, "solid_capstyle": "round"}
+
+
+def _symbol(color, model, order):
+    """Return the look of a run: its marker says the model, filled means second order."""
+    return {
+        "marker": MODELS.get(model, "D"),
+        "color": color,
+        "linestyle": "",
+        "markersize": 2.6,
+        "markerfacecolor": color if order == 2 else "white",
+        "markeredgewidth": 0.6,
+    }
+
+
+def _entries(looks, table):
+    """Return the entries of the legend for symbols."""
+    schemes = [
+        (Line2D([], [], **_symbol(look["color"], "radial", 2) | {"markersize": 5}), scheme.upper())
+        for scheme, look in looks.items()
+    ]
+    models = [
+        (Line2D([], [], **_symbol(_style.GREY, model, 2) | {"markersize": 5}), model)
+        for model in MODELS
+        if model in set(table["model"])
+    ]
+    orders = [
+        (Line2D([], [], **_symbol(_style.GREY, "radial", order) | {"markersize": 5}), f"order {order}")
+        for order in (2, 1)
+    ]
+    return schemes + models + orders
+
+
+def _lines():
+    """Return the entries of the legend for lines and shades."""
+    lines = [
+        (Line2D([], [], color=line["color"], marker="o", linewidth=1.2), f"{line['label']} (cells beside it)")
+        for line in STRONG.values()
+    ]
+    front = (Line2D([], [], **{**_FRONT, "zorder": 2}), "Pareto front: no run is cheaper and as accurate")
+    return [*lines, front, (Patch(color="0.93"), "below the uncertainty of the converged answer")]
+
+
+def _notes(table, hidden):
+    """Return the notes: what is drawn, what failed, what is left out."""
+    once = table.drop_duplicates("id")
+    failed = once[once["status"] != "ok"]["status"].value_counts()
+    notes = [
+        "Error: against the converged answer on a radius, relative; of a series the mean of |difference| over time over"
+        " the mean of the answer. Drawn is the largest error on a grid and all finer ones of the same numerics, so that"
+        " a grid that is right by chance does not count. Time: of the time loop on one core, one timing. Small symbols"
+        f" are all {len(once)} runs, those in float32, with approximate wave speeds or the paper's flux at fronts too."
+    ]
+    least = _reached(table[table["quantity"] == "L_f"])["factor"].min()
+    if np.isfinite(least):
+        notes.append(
+            "At the same error in $L_f$ the paper's method in the plane takes at least"
+            f" {_round(least):,} times as long as the default numerics, on each grid that is not right by chance."
+        )
+    if len(failed):
+        words = ", ".join(f"{count} {status}" for status, count in failed.items())
+        notes.append(f"Not drawn are runs that did not end well ({words}).")
+    if hidden:
+        notes.append(f"Also in this study, not shown here: {hidden} more (a_H, a_2, r, delta).")
+    return notes

@@ -1,0 +1,122 @@
+"""The chart of error against seconds draws every run, the two methods, the front and the factor between them."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from subslide import figures
+from subslide.config import make_study
+from subslide.figures import work_precision
+from subslide.work_precision import table
+
+METHODS = {
+    "default": {"model": "radial", "scheme": "ifcph", "order": 2, "seconds": 1e-3, "error": 0.04},
+    "paper": {"model": "plane", "scheme": "ifcph", "order": 1, "seconds": 1.0, "error": 0.16},
+    "": {"model": "quarter", "scheme": "roe", "order": 1, "seconds": 0.5, "error": 0.2},
+}
+ABOUT = {"a_2": 0.56, "r": 0.4, "delta": 32.0, "radius": 0.0705, "dtype": "float64", "cfl": 0.9}
+FLUX = {"front_flux": "exact", "wave_speeds": "exact"}
+
+
+def made_up(depths=(1.0, 10.0), failed=False):
+    """A table with runs on 50, 100 and 200 cells of three methods: errors halve, seconds grow eightfold."""
+    rows = []
+    for a_H in depths:
+        for quantity in table.QUANTITIES:
+            some = []
+            for name, method in METHODS.items():
+                for k, cells in enumerate((50, 100, 200)):
+                    lost = failed and (name, cells) == ("", 200)
+                    some.append(
+                        {
+                            **ABOUT,
+                            **FLUX,
+                            **method,
+                            "id": f"{a_H}{name}{cells}",
+                            "a_H": a_H,
+                            "quantity": quantity,
+                            "cells": cells,
+                            "method": name,
+                            "status": "diverged" if lost else "ok",
+                            "seconds": method["seconds"] * 8.0**k,
+                            "error": np.nan if lost else method["error"] / 2.0**k,
+                            "uncertainty": 0.001,
+                        }
+                    )
+            table.judge(some)
+            rows += some
+    return SimpleNamespace(work_precision=pd.DataFrame(rows))
+
+
+def panels(figure):
+    """Panels of the chart."""
+    return [ax for ax in figure.axes if ax.has_data()]
+
+
+def words(figure):
+    """Text below and above the panels."""
+    return " ".join(text.get_text() for text in figure.texts).replace("\n", " ")
+
+
+def test_a_panel_for_each_quantity_and_depth_on_logarithmic_scales():
+    axes = panels(work_precision.draw(made_up()))
+    assert len(axes) == 4 * 2
+    for ax in axes:
+        assert ax.get_xscale() == ax.get_yscale() == "log"
+    assert [ax.get_xlabel() for ax in axes[-2:]] == ["time of a run (s)"] * 2
+    assert all(ax.get_ylabel().endswith("(%)") for ax in axes[::2])
+    assert axes[1].get_title() == "(b) $L_f$, $a_H$ = 10"
+
+
+def test_every_run_is_a_symbol_and_methods_and_front_are_lines():
+    ax = panels(work_precision.draw(made_up()))[0]
+    points = {
+        (x, y)
+        for line in ax.get_lines()
+        if line.get_linestyle() == "None"
+        for x, y in zip(np.round(line.get_xdata(), 9), np.round(line.get_ydata(), 9), strict=True)
+    }
+    assert len(points) == 9
+    strong = {line.get_color(): line for line in ax.get_lines() if line.get_linestyle() == "-"}
+    np.testing.assert_allclose(strong["black"].get_ydata(), [4, 2, 1])
+    np.testing.assert_allclose(strong[work_precision.STRONG["paper"]["color"]].get_ydata(), [16, 8, 4])
+    front = next(line for line in ax.get_lines() if line.get_linewidth() > 3)
+    np.testing.assert_allclose(np.unique(front.get_ydata()), [1, 2, 4])
+
+
+def test_the_factor_is_that_at_the_error_of_the_papers_finest_grid():
+    figure = work_precision.draw(made_up())
+    for ax in panels(figure):
+        assert [text.get_text() for text in ax.texts if "times" in text.get_text()] == ["64,000 times"]
+    assert "takes at least 1,000 times as long" in words(figure)
+
+
+def test_failed_runs_are_not_drawn_but_told():
+    figure = work_precision.draw(made_up(failed=True))
+    assert "did not end well (2 diverged)" in words(figure)
+    assert "all 18 runs" in words(figure)
+
+
+def test_columns_that_are_not_shown_are_told():
+    figure = work_precision.draw(made_up(depths=(1.0, 2.0, 5.0, 10.0)))
+    assert len(panels(figure)) == 4 * 3
+    assert "not shown here: 1 more" in words(figure)
+
+
+def test_a_study_without_the_table_gets_an_empty_figure():
+    figure = work_precision.draw(SimpleNamespace(work_precision=pd.DataFrame()))
+    assert "no such run" in figure.get_suptitle()
+
+
+@pytest.mark.parametrize(("value", "rounded"), [(1999.0, 1900), (64000.0, 64000), (7.9, 7), (123.0, 120)])
+def test_factors_are_rounded_down(value, rounded):
+    assert work_precision._round(value) == rounded
+
+
+def test_only_studies_with_a_sweep_have_the_figure():
+    assert figures.about("work_precision").needs["model"] == ("plane", "radial")
+    sweep = {"study": "t", "model": ["radial", "plane"], "order": [1, 2]}
+    assert "work_precision" in make_study(sweep).figures
+    assert "work_precision" not in make_study({"study": "t"}).figures
