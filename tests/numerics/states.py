@@ -82,6 +82,6 @@ def advance(model, stop=math.inf, steps=None, thresholds=THRESHOLDS):
 
 
 def inner(model, name):
-    """One field of the state without its ghost cells."""
-    array = getattr(model.cells, name)
+    """One field of the state without its ghost cells; `model` may be its marks."""
+    array = getattr(getattr(model, "cells", model), name)
     return array[(slice(2, -2),) * array.ndim]

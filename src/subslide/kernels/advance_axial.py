@@ -10,6 +10,7 @@ from ..diagnostics.surface import largest_displacement
 from . import clock as k
 from .arrays import GHOSTS
 from .axial import cell_speeds, edges, faces, fill_ghosts, fill_stuck, grain_edges, marks, update
+from .boundary import OPEN
 from .jit import inlined, launch
 from .reduce import largest, smallest
 
@@ -37,8 +38,8 @@ def sample(s, c, weight, thresholds, probe, now, row):
 def rim_depth(h2, walls):
     """Return the largest depth of grains in the last two cells before an open end."""
     n = h2.shape[0]
-    left = 0.0 if walls[0] else max(h2[GHOSTS], h2[GHOSTS + 1])
-    right = 0.0 if walls[1] else max(h2[n - GHOSTS - 1], h2[n - GHOSTS - 2])
+    left = 0.0 if walls[0] != OPEN else max(h2[GHOSTS], h2[GHOSTS + 1])
+    right = 0.0 if walls[1] != OPEN else max(h2[n - GHOSTS - 1], h2[n - GHOSTS - 2])
     return max(left, right)
 
 
@@ -65,8 +66,9 @@ def advance_axial(
 
     One sample is written before each step and one at the end, from samples[counters[SAMPLES]] on; counters[OUTCOME]
     says why the loop ended. `weight` (n) is the volume of a cell per depth, `source` (n + 4) is -1 / (2 radius) for
-    round scenes; `probe` is (level, volume of grains below which too much has left the box, padded column beside the
-    axis, first beyond R, columns [start, stop) of the initial box, margin of the discriminant).
+    round scenes; `walls` says what the (left, right) end is, see `boundary`; `probe` is (level, volume of grains
+    below which too much has left the box, padded column beside the axis, first beyond R, columns [start, stop) of the
+    initial box, margin of the discriminant).
     """
     for _ in prange(1):
         real = type(s.r)
@@ -106,7 +108,7 @@ def advance_axial(
                         grain_edges(s, left, right, fx)
                     else:
                         edges(s, c, left, right, fx)
-                    marks(s, c, fx, mk, area, inverse_volume, dt)
+                    marks(s, c, fx, mk, area, inverse_volume, walls[0], dt)
                     update(s, c, fx, mk, area, inverse_volume, dt)
                     clock[k.NOW] = stop if now + step >= stop else now + dt
         counters[k.SAMPLES] = n

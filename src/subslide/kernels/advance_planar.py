@@ -13,6 +13,7 @@ from ..diagnostics.front import front_position
 from ..diagnostics.surface import largest_displacement
 from . import clock as k
 from .arrays import GHOSTS
+from .boundary import OPEN, join_plane
 from .jit import driver, inlined, launch
 from .planar import (
     cell_speeds,
@@ -45,11 +46,11 @@ def measure_row(s, c, j, walls, probe, inside, weight, row):
     row[SPEED2] = largest(c.speed2[j])
     row[SHALLOWEST] = min(smallest(c.h1[j]), smallest(c.h2[j]))
     row[RIM] = 0.0
-    if not walls[0]:
+    if walls[0] == OPEN:
         row[RIM] = max(row[RIM], max(c.h2[j, GHOSTS], c.h2[j, GHOSTS + 1]))
-    if not walls[1]:
+    if walls[1] == OPEN:
         row[RIM] = max(row[RIM], max(c.h2[j, nx - GHOSTS - 1], c.h2[j, nx - GHOSTS - 2]))
-    if (j < GHOSTS + 2 and not walls[2]) or (j >= ny - GHOSTS - 2 and not walls[3]):
+    if (j < GHOSTS + 2 and walls[2] == OPEN) or (j >= ny - GHOSTS - 2 and walls[3] == OPEN):
         row[RIM] = max(row[RIM], largest(c.h2[j]))
     row[ROW_ETA] = 0.0
     row[ROW_OUTSIDE] = 0.0
@@ -153,10 +154,11 @@ def advance_planar(
     """Advance from clock[NOW] to clock[STOP], or until clock[REST_FROM] and rest, or until a run cannot go on.
 
     One sample is written before each step and one at the end, from samples[counters[SAMPLES]] on; counters[OUTCOME]
-    says why the loop ended. `weight` (nx) is a cell's area; `probe` is (level, volume of grains below which too much
-    has left the box, padded columns [start, stop) and rows [first, last) of the initial box, margin of the
-    discriminant); `inside` (padded rows, 2) the columns within R; `axis` the two padded rows beside the x axis and
-    the first padded column beyond the y axis; `rows` is scratch.
+    says why the loop ended. `walls` says what (left, right, bottom, top) are, see `boundary`; `weight` (nx) is a
+    cell's area; `probe` is (level, volume of grains below which too much has left the box, padded columns [start,
+    stop) and rows [first, last) of the initial box, margin of the discriminant); `inside` (padded rows, 2) the
+    columns within R; `axis` the two padded rows beside the x axis and the first padded column beyond the y axis;
+    `rows` is scratch.
     """
     n = counters[k.SAMPLES]
     code = k.RUNNING
@@ -187,6 +189,8 @@ def advance_planar(
                 dt = type(s.r)(step)
                 fill_fluxes(s, c, left, right, lower, upper, fx, fy, mk, dt)
                 fill_marks(s, c, fx, fy, mk, dt)
+                join_plane(mk.keep1, walls)
+                join_plane(mk.keep2, walls)
                 update_cells(s, c, fx, fy, mk, dt)
                 clock[k.NOW] = stop if now + step >= stop else now + dt
     counters[k.SAMPLES] = n

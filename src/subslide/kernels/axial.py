@@ -5,6 +5,7 @@ one over the size of a cell: radius and 1 / (radius dx) for round scenes, 1 and 
 """
 
 from .arrays import GHOSTS, is_general
+from .boundary import WALL, copied_after, copied_before, join
 from .edge import edge_fluxes, grain_edge_fluxes
 from .friction import COULOMB, further
 from .friction.coulomb import coulomb, drive, holds
@@ -16,12 +17,12 @@ from .waves import chosen_outer_speeds, grain_speeds
 
 
 @inlined
-def fill_ghosts(c, left_wall, right_wall):
-    """Set the ghost cells: mirrored at a wall, a copy of the last cell at an open end."""
+def fill_ghosts(c, left, right):
+    """Set the ghost cells; `left` and `right` say what the ends are, see `boundary`."""
     n = c.h1.shape[0]
     for g in range(GHOSTS):
-        copy_cell(c, GHOSTS + (g if left_wall else 0), GHOSTS - 1 - g, left_wall)
-        copy_cell(c, n - GHOSTS - 1 - (g if right_wall else 0), n - GHOSTS + g, right_wall)
+        copy_cell(c, copied_before(left, g, n), GHOSTS - 1 - g, left == WALL)
+        copy_cell(c, copied_after(right, g, n), n - GHOSTS + g, right == WALL)
 
 
 @inlined
@@ -164,8 +165,8 @@ def edges(s, c, left, right, fx):
 
 
 @inlined
-def marks(s, c, fx, mk, area, inverse_volume, dt):
-    """Fill `Marks` of every cell but the ghosts, whose `keep` stays 1."""
+def marks(s, c, fx, mk, area, inverse_volume, left, dt):
+    """Fill `Marks` of every cell but the ghosts, whose `keep` stays 1 unless they stand for other cells."""
     zero = type(s.r)(0)
     for k in range(inverse_volume.shape[0]):
         i = k + GHOSTS
@@ -175,6 +176,8 @@ def marks(s, c, fx, mk, area, inverse_volume, dt):
         mk.keep1[i] = share(c.h1[i], out1, s.dry_depth)
         mk.keep2[i] = share(c.h2[i], out2, s.dry_depth)
         mk.held[i] = min(fx.stuck[k], fx.stuck[k + 1])
+    join(mk.keep1, left)
+    join(mk.keep2, left)
 
 
 @inlined

@@ -5,6 +5,7 @@ Rows are worked on in blocks so that the states at faces stay in a core's cache.
 """
 
 from .arrays import GHOSTS, Side, is_general
+from .boundary import WALL, copied_after, copied_before
 from .edge import edge_fluxes
 from .friction import COULOMB, further
 from .friction.coulomb import coulomb, drive, holds
@@ -28,17 +29,17 @@ def copy_cell(c, j, i, ghost_j, ghost_i, flip_u, flip_v):
 
 @inlined
 def fill_ghosts(c, walls):
-    """Set the ghost cells; `walls` says for (left, right, bottom, top) whether it mirrors or is open."""
+    """Set the ghost cells; `walls` says what (left, right, bottom, top) are, see `boundary`."""
     ny, nx = c.h1.shape
     left, right, bottom, top = walls
     for g in range(GHOSTS):
         for j in range(GHOSTS, ny - GHOSTS):
-            copy_cell(c, j, GHOSTS + (g if left else 0), j, GHOSTS - 1 - g, left, False)
-            copy_cell(c, j, nx - GHOSTS - 1 - (g if right else 0), j, nx - GHOSTS + g, right, False)
+            copy_cell(c, j, copied_before(left, g, nx), j, GHOSTS - 1 - g, left == WALL, False)
+            copy_cell(c, j, copied_after(right, g, nx), j, nx - GHOSTS + g, right == WALL, False)
     for g in range(GHOSTS):
         for i in range(nx):
-            copy_cell(c, GHOSTS + (g if bottom else 0), i, GHOSTS - 1 - g, i, False, bottom)
-            copy_cell(c, ny - GHOSTS - 1 - (g if top else 0), i, ny - GHOSTS + g, i, False, top)
+            copy_cell(c, copied_before(bottom, g, ny), i, GHOSTS - 1 - g, i, False, bottom == WALL)
+            copy_cell(c, copied_after(top, g, ny), i, ny - GHOSTS + g, i, False, top == WALL)
 
 
 @inlined

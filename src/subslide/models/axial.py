@@ -11,8 +11,8 @@ class Axial:
     """A state on n cells and the time loop that moves it.
 
     scene: `kernels.arrays.Scene` in the working precision. state: (h1, u1, h2, u2), each (n), scaled. radial: whether
-    cells are rings about the axis. walls: whether (left, right) end is a wall. level: the undisturbed surface.
-    watched: cells from the axis within which the surface is watched.
+    cells are rings about the axis. walls: what the (left, right) end is, see `kernels.boundary`. level: the
+    undisturbed surface. watched: cells from the axis within which the surface is watched.
     """
 
     copies = 1
@@ -45,7 +45,7 @@ class Axial:
             self.source[GHOSTS:-GHOSTS] = -0.5 / self.x
             self.source[GHOSTS - 1] = -self.source[GHOSTS]  # mirrored, so that nothing passes a wall
             self.source[-GHOSTS] = -self.source[-GHOSTS - 1] if walls[1] else -0.5 / (self.x[-1] + dx)
-        self.walls = (bool(walls[0]), bool(walls[1]))
+        self.walls = (int(walls[0]), int(walls[1]))
         beside = int(np.searchsorted(self.x, 0.0))
         beyond = int(np.searchsorted(self.x, 1.0))
         near = np.flatnonzero(np.abs(self.x) < watched * dx)

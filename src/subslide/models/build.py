@@ -6,6 +6,7 @@ import numpy as np
 
 from .. import scenes
 from ..kernels.arrays import GeneralScene, Scene
+from ..kernels.boundary import BOUNDARIES, WALL
 from ..kernels.friction import LAWS
 from ..kernels.viscosity import SCHEMES
 from ..kernels.waves import SPEEDS
@@ -57,7 +58,7 @@ def build(point, model, box, watched, dry_depth):
     if flat:  # flat to the bit in the working precision too
         h1, h2 = scenes.level_off(state.h2, level)
         state = state._replace(h1=h1, h2=h2)
-    closed = point.boundary == "wall"
+    end = BOUNDARIES[point.boundary]
     if axial:
         round_scene = grid.geometry == "radius"
         return Axial(
@@ -66,17 +67,17 @@ def build(point, model, box, watched, dry_depth):
             (0 * state.h1 if alone else state.h1, state.u1, state.h2, state.u2),
             grid,
             radial=round_scene,
-            walls=(round_scene or closed, closed),
+            walls=(WALL if round_scene else end, end),
             level=real(1) if alone else level,
             watched=watched,
         )
-    mirrored = grid.geometry == "quarter"
+    first = WALL if grid.geometry == "quarter" else end
     return Plane(
         model,
         scene,
         (state.h1, state.u1, state.v1, state.h2, state.u2, state.v2),
         grid,
-        walls=(mirrored or closed, closed, mirrored or closed, closed),
+        walls=(first, end, first, end),
         level=level,
         watched=watched,
     )

@@ -11,8 +11,8 @@ class Plane:
     """A state on ny x nx square cells and the time loop that moves it.
 
     scene: `kernels.arrays.Scene` in the working precision. state: (h1, u1, v1, h2, u2, v2), each (ny, nx), scaled.
-    walls: whether (left, right, bottom, top) is a wall. level: the undisturbed surface. watched: half-width in cells
-    of the region where the surface is watched.
+    walls: what (left, right, bottom, top) are, see `kernels.boundary`. level: the undisturbed surface. watched:
+    half-width in cells of the region where the surface is watched.
     """
 
     dimensions = 2
@@ -42,7 +42,7 @@ class Plane:
         self.marks.keep1[:] = self.marks.keep2[:] = 1
         dx = grid.dx
         self.weight = np.full(nx, dx * dx, real)
-        self.walls = tuple(bool(wall) for wall in walls)
+        self.walls = tuple(int(wall) for wall in walls)
         column = row = first + GHOSTS
         margin = 64.0 * float(np.finfo(real).eps)
         box = max(GHOSTS, column - watched), min(padded[1] - GHOSTS, column + watched)
