@@ -43,7 +43,7 @@ def run_options(command):
         flag = "--" + key.replace("_", "-")
         default = about["default"]
         if about.get("type") == "boolean":
-            option = click.option(f"{flag}/--no-{key}", key, default=None, help=_help(key))
+            option = click.option(f"{flag}/--no-{flag[2:]}", key, default=None, help=_help(key))
         else:
             metavar = schema.metavar(key)
             option = click.option(flag, key, metavar=metavar, help=f"{_help(key)}  [default: {default}]")

@@ -17,6 +17,13 @@ MOST_POINTS = 200_000
 MOST_PLANE_CELLS = 10_000
 FEWEST_CELLS = 10
 CASE_KEYS = ("numerics", *RUN_KEYS)
+PLANE = ("quarter", "plane")
+GEOMETRIES = {
+    ("fields", True): PLANE,
+    ("as_printed", "upwinding"): PLANE,  # of tangential momentum, which a line or a radius does not have
+    ("boundary", "periodic"): ("line", "plane"),
+}
+"""Geometries to which a value of a key is limited."""
 COARSENING = {"cells/2": 2, "cells/4": 4}
 """Role of each companion of a run in a study with bands, and how many times fewer cells it has."""
 
@@ -121,13 +128,15 @@ def resolve(values: dict, names: dict[str, str] | None = None) -> tuple[str, Poi
             f"model: {point.model} is not allowed with scene: {point.scene}, a"
             f" {choice.WORDS[scenes.symmetry(point)]}; allowed: auto, {', '.join(choice.exact_models(point))}"
         )
-    plane = choice.resolve_model(point) in ("quarter", "plane")
-    if point.fields and not plane:
-        raise ConfigError(
-            f"fields: true is not allowed with model: {choice.resolve_model(point)} ({choice.model_reason(point)});"
-            " allowed: quarter, plane"
-        )
-    if plane and point.cells > MOST_PLANE_CELLS:
+    model = choice.resolve_model(point)
+    geometry = choice.geometry(model, point)
+    for (key, value), geometries in GEOMETRIES.items():
+        if getattr(point, key) == value and geometry not in geometries:
+            raise ConfigError(
+                f"{key}: {schema.show(value)} is not allowed with model: {model} ({choice.model_reason(point)});"
+                f" allowed: {', '.join(geometries)}"
+            )
+    if geometry in PLANE and point.cells > MOST_PLANE_CELLS:
         raise ConfigError(
             f"cells: {point.cells} is not allowed in the plane; allowed: at most {MOST_PLANE_CELLS}"
         )

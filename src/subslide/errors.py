@@ -55,7 +55,7 @@ COLUMNS = {
 }
 QUANTITIES = {
     "h2": "depth of the grains: sum of |error| over the sum of |exact|, each cell (on a radius each ring) by its size;"
-    " for standing waves the mean of |error| over the amplitude",
+    " for waves of small amplitude the mean of |error| over the exact amplitude",
     "eta": "displacement of the water surface, likewise; for a dam break of water over its depth",
     **{
         f"x_front_{t}": f"how far the front at {t[:-2]} % of H2 is behind the exact edge, over the edge's distance"
@@ -164,7 +164,7 @@ def errors_at(answer, point: Point, run: xr.Dataset, time: float) -> Iterator[tu
     for quantity, values in known.items():
         if not np.isfinite(run[quantity].values).any():  # water of a model without water
             continue
-        size = scale(point, quantity, values, weight)
+        size = scale(answer, point, quantity, time, values, weight)
         if np.isfinite(values).all() and size > 0:
             solved = _profile(run, quantity, time)
             yield quantity, float((weight * np.abs(solved - values)).sum() / size)
@@ -200,12 +200,11 @@ def weights(run: xr.Dataset) -> np.ndarray:
     return np.abs(x) if is_round(run) else np.ones(len(x))
 
 
-def scale(point: Point, quantity: str, values: np.ndarray, weight: np.ndarray) -> float:
+def scale(answer, point: Point, quantity: str, time: float, values: np.ndarray, weight: np.ndarray) -> float:
     """What an error is relative to, in the unit of sum(weight * |error|); 0 where nothing is compared."""
     height = point.a_2 * point.radius
-    options = dict(point.scene_options)
-    if point.scene == "standing_wave":
-        return float(weight.sum()) * options["amplitude"] * height
+    if hasattr(answer, "amplitude"):
+        return float(weight.sum()) * answer.amplitude(point, time) * height
     if point.scene == "dam_break" and quantity == "eta":
         values = values + (1 + point.a_H) * height
     return float((weight * np.abs(values)).sum())

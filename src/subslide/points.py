@@ -52,6 +52,9 @@ class Point:
     scheme: str = "ifcph"
     front_flux: str = "exact"
     wave_speeds: str = "exact"
+    treatment: str = "real"
+    as_printed: str = "none"
+    friction_in_viscosity: bool = True
     order: int = 2
     cells: int = 200
     dtype: str = "float64"

@@ -175,9 +175,9 @@ def series_rows(run: xr.Dataset) -> pd.DataFrame:
 def samples_inside(run: xr.Dataset) -> int:
     """Number of samples up to which nothing can have left the box: a step carries a change `order` cells at most.
 
-    Behind walls nothing ever leaves, and every sample counts.
+    Unless the box is open nothing ever leaves, and every sample counts.
     """
-    if str(run["boundary"].values) == "wall":
+    if str(run["boundary"].values) != "open":
         return run.sizes["step"]
     radius, dx = float(run["radius"]), float(run["dx"])
     cells = (min(PAPER_BOX * radius, float(run["box_half_width"])) - radius) / dx

@@ -27,7 +27,7 @@ def scene(
     speeds="exact",
     **law,
 ):
-    """Scaled numbers of a run in double precision; `law` holds the fields of a friction law beside Coulomb's."""
+    """Scaled numbers of a run in double precision; `law` holds the fields that lean kernels leave out."""
     real = np.float64
     found = Scene(
         layers=layers,
@@ -83,6 +83,6 @@ def advance(model, stop=math.inf, steps=None, thresholds=THRESHOLDS):
 
 
 def inner(model, name):
-    """One field of the state without its ghost cells."""
-    array = getattr(model.cells, name)
+    """One field of the state without its ghost cells; `model` may be its marks."""
+    array = getattr(getattr(model, "cells", model), name)
     return array[(slice(2, -2),) * array.ndim]

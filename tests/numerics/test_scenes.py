@@ -45,6 +45,7 @@ CASES = {
     "pyramid": ("pile", {"shape": "pyramid", "angle": 45}, {}, "quarter plane", 4 / (3 * SLOPE**2)),
     "turned pyramid": ("pile", {"shape": "pyramid", "angle": 22.5}, {}, "plane", 4 / (3 * SLOPE**2)),
     "slide": ("slide", {}, WALL, "line", BOX),
+    "shear": ("shear", {}, {"boundary": "periodic"}, "line", BOX),
 }  # fmt: skip
 RUNS = [(case, model) for case, (*_, models, _) in CASES.items() for model in models.split()]
 

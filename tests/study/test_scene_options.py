@@ -51,6 +51,8 @@ def test_mistakes_on_the_command_line_give_one_line(scene, text, capsys, tmp_pat
         ({"scene": "dam_break"}, "boundary: open is not allowed with scene: dam_break"),
         ({"scene": "pile", "delta": 0}, "delta: 0 is not allowed with scene: pile"),
         ({"scene": "standing_wave", "boundary": "wall", "a_H": 0}, "a_H: 0 is not allowed"),
+        ({"scene": "shear"}, "boundary: open is not allowed with scene: shear"),
+        ({"scene": "shear", "boundary": "periodic", "a_H": 0}, "a_H: 0 is not allowed"),
         ({"scene": "ellipse", "model": "radial"}, "model: radial is not allowed with scene: ellipse"),
         ({"model": "line"}, "model: line is not allowed with scene: cylinder"),
         ({"scene": "ellipse", "scene_options": {"angle": []}}, "angle: [] makes an empty grid"),

@@ -28,12 +28,12 @@ def row_budget(h1, u1, v1, h2, u2, v2, weight, r, start, stop):
 @summed
 def row_nonhyperbolic(h1, u1, v1, h2, u2, v2, r, dry_depth, margin, start, stop):
     """Return how many of a row's cells start..stop-1, wet in both layers, have complex speeds along their shear."""
-    count = 0.0
+    found = 0.0
     first, count = part(start, stop)
     for k in range(count):
         i = k + first
         du = u1[i] - u2[i]
         dv = v1[i] - v2[i]
         wet = min(h1[i], h2[i]) > dry_depth
-        count += 1.0 if wet and discriminant(h1[i], h2[i], du * du + dv * dv, r) < -margin else 0.0
-    return count
+        found += 1.0 if wet and discriminant(h1[i], h2[i], du * du + dv * dv, r) < -margin else 0.0
+    return found

@@ -49,6 +49,11 @@ def form_mean(shape, k, edges, half):
     return np.diff(np.sin(k * (edges + half)) / k) / np.diff(edges)
 
 
+def amplitude(point, time):
+    """Return the wave's amplitude over H2 when it turns, at any time."""
+    return {**DEFAULTS, **dict(point.scene_options)}["amplitude"]
+
+
 def solution(point, x, time):
     """Return h2 and eta (m) at x (m); known without friction, and for one layer where r = 0."""
     own = {**DEFAULTS, **dict(point.scene_options)}

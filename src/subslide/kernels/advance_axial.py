@@ -22,6 +22,8 @@ from .axial import (
     water_edges,
     water_faces,
 )
+from .boundary import OPEN, PERIODIC
+from .interlayer import judged
 from .jit import inlined, launch
 from .reduce import largest, smallest
 from .span import grain_span, moved_span, reached, split, water_may_be_alone, wet_span
@@ -55,8 +57,8 @@ def sample(s, c, weight, total, thresholds, probe, low, high, wet, now, row):
 def rim_depth(h2, walls):
     """Return the largest depth of grains in the last two cells before an open end."""
     n = h2.shape[0]
-    left = 0.0 if walls[0] else max(h2[GHOSTS], h2[GHOSTS + 1])
-    right = 0.0 if walls[1] else max(h2[n - GHOSTS - 1], h2[n - GHOSTS - 2])
+    left = 0.0 if walls[0] != OPEN else max(h2[GHOSTS], h2[GHOSTS + 1])
+    right = 0.0 if walls[1] != OPEN else max(h2[n - GHOSTS - 1], h2[n - GHOSTS - 2])
     return max(left, right)
 
 
@@ -112,6 +114,9 @@ def advance(
         first, last = reached(first, last, low, high, cells, s.lanes)
         wet_low, wet_high = wet if alone else (low, high)
         wet_first, wet_last = reached(wet_first, wet_last, wet_low, wet_high, cells, s.lanes)
+        if walls[0] == PERIODIC:  # what leaves at one end comes in at the other
+            first = wet_first = 0
+            last = wet_last = cells
         now = clock[k.NOW]
         row = samples[n]
         sample(s, c, weight, total, thresholds, probe, low, high, wet, now, row)
@@ -127,6 +132,7 @@ def advance(
             rim >= thresholds[0] or row[k.GRAINS] < least_grains,
             n == samples.shape[0],
         )
+        code = judged(s, code, row[k.COMPLEX])
         if code == k.RUNNING:
             pace = max(largest(c.pace, low, high), max(c.pace[0], c.pace[cells - 1]))
             stop = clock[k.STOP]
@@ -152,7 +158,7 @@ def advance(
                     edges(s, c, left, right, fx, low, high)
                     water_edges(s, c, left, right, fx, start, low)
                     water_edges(s, c, left, right, fx, high, end + 1)
-                marks(s, c, fx, mk, area, inverse_volume, start, end, wet_start, wet_end, dt)
+                marks(s, c, fx, mk, area, inverse_volume, start, end, wet_start, wet_end, walls[0], dt)
                 update(s, c, fx, mk, area, inverse_volume, start, end, wet_start, wet_end, dt)
                 clock[k.NOW] = stop if now + step >= stop else now + dt
     counters[k.SAMPLES] = n

@@ -14,6 +14,8 @@ from ..diagnostics.front import front_position
 from ..diagnostics.surface import largest_displacement
 from . import clock as k
 from .arrays import GHOSTS
+from .boundary import OPEN, PERIODIC, join_plane
+from .interlayer import judged
 from .jit import driver, inlined, launch
 from .planar import (
     cell_speeds,
@@ -70,11 +72,11 @@ def measure_row(s, c, j, walls, probe, inside, weight, total, span, row):
     row[SQUARE2] = largest(c.square2[j], low, high)
     row[SHALLOWEST] = min(smallest(h1, low, high), smallest(h2, low, high))
     row[RIM] = 0.0
-    if not walls[0]:
+    if walls[0] == OPEN:
         row[RIM] = max(row[RIM], max(h2[GHOSTS], h2[GHOSTS + 1]))
-    if not walls[1]:
+    if walls[1] == OPEN:
         row[RIM] = max(row[RIM], max(h2[nx - GHOSTS - 1], h2[nx - GHOSTS - 2]))
-    if (j < GHOSTS + 2 and not walls[2]) or (j >= ny - GHOSTS - 2 and not walls[3]):
+    if (j < GHOSTS + 2 and walls[2] == OPEN) or (j >= ny - GHOSTS - 2 and walls[3] == OPEN):
         row[RIM] = max(row[RIM], largest(h2, 0, nx))
     row[ROW_ETA] = 0.0
     row[ROW_OUTSIDE] = 0.0
@@ -241,7 +243,9 @@ def advance_planar(
     while code == k.RUNNING:
         fill_ghosts(c, walls)
         survey(s, c, walls, probe, inside, weight, total, spans, rows, whole)
-        widen(spans, c.h1.shape[1], s.lanes, water_may_be_alone(s))
+        widen(
+            spans, c.h1.shape[1], s.lanes, water_may_be_alone(s), walls[0] == PERIODIC or walls[2] == PERIODIC
+        )
         whole = False
         now = clock[k.NOW]
         sample = samples[n]
@@ -256,6 +260,7 @@ def advance_planar(
             largest(rows[:, RIM], 0, rows.shape[0]) >= thresholds[0] or sample[k.GRAINS] < probe[1],
             n == samples.shape[0],
         )
+        code = judged(s, code, sample[k.COMPLEX])
         if code == k.RUNNING:
             pace = largest(rows[:, PACE], 0, rows.shape[0])
             stop = clock[k.STOP]
@@ -267,6 +272,8 @@ def advance_planar(
                 dt = type(s.r)(step)
                 fill_fluxes(s, c, left, right, lower, upper, fx, fy, mk, spans, dt, blocks)
                 fill_marks(s, c, fx, fy, mk, spans, dt, ny)
+                join_plane(mk.keep1, walls)
+                join_plane(mk.keep2, walls)
                 update_cells(s, c, fx, fy, mk, spans, dt, ny)
                 clock[k.NOW] = stop if now + step >= stop else now + dt
     counters[k.SAMPLES] = n

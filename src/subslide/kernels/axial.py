@@ -6,23 +6,26 @@ start..stop-1 count from the smallest index that they need.
 """
 
 from .arrays import GHOSTS, is_general
+from .boundary import WALL, copied_after, copied_before, join
 from .edge import edge_fluxes, grain_edge_fluxes, water_edge_fluxes
 from .friction import COULOMB, further
-from .friction.coulomb import coulomb, head, holds
+from .friction.coulomb import head, holds
+from .interlayer import FRICTION, rub
 from .jit import inlined, part, unsigned
 from .positivity import limit, share
+from .printed import braking
 from .reconstruct import depth_slopes, grain_slopes, mc, rates
 from .velocity import velocity
 from .waves import chosen_bounds, grain_speeds, water_speeds
 
 
 @inlined
-def fill_ghosts(c, left_wall, right_wall):
-    """Set the ghost cells: mirrored at a wall, a copy of the last cell at an open end."""
+def fill_ghosts(c, left, right):
+    """Set the ghost cells; `left` and `right` say what the ends are, see `boundary`."""
     n = c.h1.shape[0]
     for g in range(GHOSTS):
-        copy_cell(c, GHOSTS + (g if left_wall else 0), GHOSTS - 1 - g, left_wall)
-        copy_cell(c, n - GHOSTS - 1 - (g if right_wall else 0), n - GHOSTS + g, right_wall)
+        copy_cell(c, copied_before(left, g, n), GHOSTS - 1 - g, left == WALL)
+        copy_cell(c, copied_after(right, g, n), n - GHOSTS + g, right == WALL)
 
 
 @inlined
@@ -240,8 +243,8 @@ def outflow_share(f, h, area, inverse_volume, dry_depth, dt, k):
 
 
 @inlined
-def marks(s, c, fx, mk, area, inverse_volume, start, stop, low, high, dt):
-    """Fill `Marks` of cells, those of grains in low..high-1; of ghosts `keep` stays 1."""
+def marks(s, c, fx, mk, area, inverse_volume, start, stop, low, high, left, dt):
+    """Fill `Marks` of cells, those of grains in low..high-1; `keep` of ghosts stays 1 unless they stand for others."""
     first, count = part(start, stop)
     for m in range(count):
         k = m + first
@@ -251,6 +254,8 @@ def marks(s, c, fx, mk, area, inverse_volume, start, stop, low, high, dt):
         k = m + first
         mk.keep2[k + GHOSTS] = outflow_share(fx.f2, c.h2, area, inverse_volume, s.dry_depth, dt, k)
         mk.held[k + GHOSTS] = min(fx.stuck[k], fx.stuck[k + 1])
+    join(mk.keep1, left)
+    join(mk.keep2, left)
 
 
 @inlined
@@ -284,7 +289,9 @@ def update(s, c, fx, mk, area, inverse_volume, start, stop, low, high, dt):
         )
         u = velocity(q, h, s.dry_depth)
         c.h2[k + GHOSTS] = h
-        c.u2[k + GHOSTS] = u * coulomb(reach, abs(u), mk.held[k + GHOSTS])
+        c.u2[k + GHOSTS] = u * braking(s, reach, abs(u), mk.held[k + GHOSTS])
     if is_general(s) and s.law != COULOMB:
         for i in range(low + GHOSTS, high + GHOSTS):
             c.u2[i] *= further(s, dt, c.h2[i], abs(c.u2[i]))
+    if is_general(s) and s.treatment == FRICTION:
+        rub(s, c.h1, c.u1, c.v1, c.h2, c.u2, c.v2)

@@ -5,11 +5,14 @@ Loops over columns start..stop-1 count from the smallest index that they need.
 """
 
 from .arrays import GHOSTS, Side, is_general
+from .boundary import WALL, copied_after, copied_before
 from .edge import edge_fluxes, water_edge_fluxes
 from .friction import COULOMB, further
-from .friction.coulomb import coulomb, head, holds
+from .friction.coulomb import head, holds
+from .interlayer import FRICTION, rub
 from .jit import inlined, part, unsigned
 from .positivity import donor, limit, share
+from .printed import braking, carried
 from .reconstruct import depth_slopes, grain_slopes, mc, rates
 from .span import joint, joint_wet
 from .velocity import norm, velocity
@@ -29,17 +32,17 @@ def copy_cell(c, j, i, ghost_j, ghost_i, flip_u, flip_v):
 
 @inlined
 def fill_ghosts(c, walls):
-    """Set the ghost cells; `walls` says for (left, right, bottom, top) whether it mirrors or is open."""
+    """Set the ghost cells; `walls` says what (left, right, bottom, top) are, see `boundary`."""
     ny, nx = c.h1.shape
     left, right, bottom, top = walls
     for g in range(GHOSTS):
         for j in range(GHOSTS, ny - GHOSTS):
-            copy_cell(c, j, GHOSTS + (g if left else 0), j, GHOSTS - 1 - g, left, False)
-            copy_cell(c, j, nx - GHOSTS - 1 - (g if right else 0), j, nx - GHOSTS + g, right, False)
+            copy_cell(c, j, copied_before(left, g, nx), j, GHOSTS - 1 - g, left == WALL, False)
+            copy_cell(c, j, copied_after(right, g, nx), j, nx - GHOSTS + g, right == WALL, False)
     for g in range(GHOSTS):
         for i in range(nx):
-            copy_cell(c, GHOSTS + (g if bottom else 0), i, GHOSTS - 1 - g, i, False, bottom)
-            copy_cell(c, ny - GHOSTS - 1 - (g if top else 0), i, ny - GHOSTS + g, i, False, top)
+            copy_cell(c, copied_before(bottom, g, ny), i, GHOSTS - 1 - g, i, False, bottom == WALL)
+            copy_cell(c, copied_after(top, g, ny), i, ny - GHOSTS + g, i, False, top == WALL)
 
 
 @inlined
@@ -238,8 +241,8 @@ def edges(s, f, j, slow, fast, rows, before, after, face_rows, shift, step, star
         )
         f.f1[j, k], f.m1[j, k], f.p1[j, k] = f1, m1, p1
         f.f2[j, k], f.m2[j, k], f.p2[j, k] = f2, m2, p2
-        f.t1[j, k] = f1 * donor(f1, before.v1[b, i], after.v1[a, o])
-        f.t2[j, k] = f2 * donor(f2, before.v2[b, i], after.v2[a, o])
+        f.t1[j, k] = f1 * carried(s, f1, after.h1[a, o], before.v1[b, i], after.h1[a, o], after.v1[a, o])
+        f.t2[j, k] = f2 * carried(s, f2, before.h2[b, i], before.v2[b, i], after.h2[a, o], after.v2[a, o])
 
 
 @inlined
@@ -340,7 +343,7 @@ def update(s, c, fx, fy, mk, spans, j, dt):
         h, qx, qy = advance_layer(ratio, c.h2, c.u2, c.v2, x, y, mk.keep2, mk.inner_p2x, mk.inner_p2y, j, k)
         u = velocity(qx, h, s.dry_depth)
         v = velocity(qy, h, s.dry_depth)
-        factor = coulomb(reach, norm(u, v), mk.held[p, i])
+        factor = braking(s, reach, norm(u, v), mk.held[p, i])
         c.h2[p, i] = h
         c.u2[p, i] = factor * u
         c.v2[p, i] = factor * v
@@ -349,3 +352,5 @@ def update(s, c, fx, fy, mk, spans, j, dt):
             factor = further(s, dt, c.h2[p, i], norm(c.u2[p, i], c.v2[p, i]))
             c.u2[p, i] *= factor
             c.v2[p, i] *= factor
+    if is_general(s) and s.treatment == FRICTION:
+        rub(s, c.h1[p], c.u1[p], c.v1[p], c.h2[p], c.u2[p], c.v2[p])

@@ -79,9 +79,16 @@ def grain_span(h2, u2, v2, start, stop):
 
 
 @inlined
-def widen(spans, n, lanes, alone):
-    """Grow the spans of every padded row (of n cells) to what the next step may change; `alone`: see above."""
+def widen(spans, n, lanes, alone, joined):
+    """Grow the spans of every padded row (of n cells) to what the next step may change.
+
+    alone: see `water_may_be_alone`. joined: whether what leaves at one end comes in at the other.
+    """
     rows = spans.shape[0]
+    if joined:
+        spans[:, FIRST] = spans[:, WET_FIRST] = 0
+        spans[:, LAST] = spans[:, WET_LAST] = n
+        return
     for j in range(GHOSTS, rows - GHOSTS):
         own = spans[j]
         for m in range(j - GHOSTS, j + GHOSTS + 1):

@@ -4,15 +4,15 @@ import numpy as np
 
 from ..kernels.advance_axial import advance_axial
 from ..kernels.arrays import GHOSTS, Cells, Fluxes, Marks, Side, allocate
-from .limits import LOST_GRAINS, first_suspect
+from .limits import LOST_GRAINS, first_sheared, first_suspect
 
 
 class Axial:
     """A state on n cells and the time loop that moves it.
 
     scene: `kernels.arrays.Scene` in the working precision. state: (h1, u1, h2, u2), each (n), scaled. radial: whether
-    cells are rings about the axis. walls: whether (left, right) end is a wall. level: the undisturbed surface.
-    watched: cells from the axis within which the surface is watched.
+    cells are rings about the axis. walls: what the (left, right) end is, see `kernels.boundary`. level: the
+    undisturbed surface. watched: cells from the axis within which the surface is watched.
     """
 
     copies = 1
@@ -49,7 +49,7 @@ class Axial:
             self.source[GHOSTS:-GHOSTS] = -0.5 / self.x
             self.source[GHOSTS - 1] = -self.source[GHOSTS]  # mirrored, so that nothing passes a wall
             self.source[-GHOSTS] = -self.source[-GHOSTS - 1] if walls[1] else -0.5 / (self.x[-1] + dx)
-        self.walls = (bool(walls[0]), bool(walls[1]))
+        self.walls = (int(walls[0]), int(walls[1]))
         beside = int(np.searchsorted(self.x, 0.0))
         beyond = int(np.searchsorted(self.x, 1.0))
         near = np.flatnonzero(np.abs(self.x) < watched * dx)
@@ -93,3 +93,7 @@ class Axial:
     def suspect(self):
         """Return where the state is first not finite or negative, and what stands there; '' if nowhere."""
         return first_suspect(self.cells, ("h1", "u1", "h2", "u2"))
+
+    def sheared(self):
+        """Return where wave speeds are first complex, and the state there; '' if nowhere."""
+        return first_sheared(self.cells, ("h1", "u1", "h2", "u2"), self.scene)

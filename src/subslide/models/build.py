@@ -6,7 +6,10 @@ import numpy as np
 
 from .. import scenes
 from ..kernels.arrays import GeneralScene, Scene
+from ..kernels.boundary import BOUNDARIES, WALL
 from ..kernels.friction import LAWS
+from ..kernels.interlayer import TREATMENTS
+from ..kernels.printed import AS_PRINTED
 from ..kernels.viscosity import SCHEMES
 from ..kernels.waves import SPEEDS
 from .axial import Axial
@@ -35,6 +38,10 @@ def scaled(point, layers, dx, dry_depth):
         turbulence=real(point.g / (point.xi * point.a_2)),
         friction_rise=real((math.tan(math.radians(point.delta_2)) - mu) / point.a_2),
         depths=real(point.a_2 * point.radius / point.pouliquen_length),
+        treatment=TREATMENTS[point.treatment],
+        as_printed=AS_PRINTED[point.as_printed],
+        printed_bound=real((1 - point.r) * mu * math.sqrt(point.g / (point.a_2 * point.radius))),
+        viscous_friction=int(point.friction_in_viscosity),
     )
     return GeneralScene(*scene, general=1) if needs_general(point) else scene
 
@@ -58,7 +65,7 @@ def build(point, model, box, watched, dry_depth):
     if flat:  # flat to the bit in the working precision too
         h1, h2 = scenes.level_off(state.h2, level)
         state = state._replace(h1=h1, h2=h2)
-    closed = point.boundary == "wall"
+    end = BOUNDARIES[point.boundary]
     if axial:
         round_scene = grid.geometry == "radius"
         return Axial(
@@ -67,17 +74,17 @@ def build(point, model, box, watched, dry_depth):
             (0 * state.h1 if alone else state.h1, state.u1, state.h2, state.u2),
             grid,
             radial=round_scene,
-            walls=(round_scene or closed, closed),
+            walls=(WALL if round_scene else end, end),
             level=real(1) if alone else level,
             watched=watched,
         )
-    mirrored = grid.geometry == "quarter"
+    first = WALL if grid.geometry == "quarter" else end
     return Plane(
         model,
         scene,
         (state.h1, state.u1, state.v1, state.h2, state.u2, state.v2),
         grid,
-        walls=(mirrored or closed, closed, mirrored or closed, closed),
+        walls=(first, end, first, end),
         level=level,
         watched=watched,
     )

@@ -5,15 +5,15 @@ import numpy as np
 from ..kernels.advance_planar import BLOCK, ROW_COLUMNS, advance_planar
 from ..kernels.arrays import GHOSTS, Cells, Fluxes, Marks, Side, allocate
 from ..kernels.span import SPANS
-from .limits import LOST_GRAINS, first_suspect
+from .limits import LOST_GRAINS, first_sheared, first_suspect
 
 
 class Plane:
     """A state on ny x nx square cells and the time loop that moves it.
 
     scene: `kernels.arrays.Scene` in the working precision. state: (h1, u1, v1, h2, u2, v2), each (ny, nx), scaled.
-    walls: whether (left, right, bottom, top) is a wall. level: the undisturbed surface. watched: half-width in cells
-    of the region where the surface is watched.
+    walls: what (left, right, bottom, top) are, see `kernels.boundary`. level: the undisturbed surface. watched:
+    half-width in cells of the region where the surface is watched.
     """
 
     dimensions = 2
@@ -49,7 +49,7 @@ class Plane:
         self.weight = np.zeros(padded[1], real)
         self.weight[inner[1]] = dx * dx
         self.total = np.concatenate([[0.0], np.cumsum(self.weight, dtype=np.float64)])
-        self.walls = tuple(bool(wall) for wall in walls)
+        self.walls = tuple(int(wall) for wall in walls)
         column = row = first + GHOSTS
         margin = 64.0 * float(np.finfo(real).eps)
         box = max(GHOSTS, column - watched), min(padded[1] - GHOSTS, column + watched)
@@ -100,6 +100,10 @@ class Plane:
     def suspect(self):
         """Return where the state is first not finite or negative, and what stands there; '' if nowhere."""
         return first_suspect(self.cells, ("h1", "u1", "v1", "h2", "u2", "v2"))
+
+    def sheared(self):
+        """Return where wave speeds are first complex, and the state there; '' if nowhere."""
+        return first_sheared(self.cells, ("h1", "u1", "v1", "h2", "u2", "v2"), self.scene)
 
 
 def columns_within_radius(padded_rows, row, column, dx, box):
