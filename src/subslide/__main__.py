@@ -169,6 +169,32 @@ def verify(results, output):
 
 
 @cli.command()
+@click.argument("results")
+@click.option("-o", "--output", metavar="FILE.md", help="page whose table of the last run is written anew")
+def atlas(results, output):
+    """Write the stability atlas of a study and print how each method did; RESULTS is the study's folder."""
+    from subslide import atlas as atlas_of
+
+    click.echo(str(atlas_of.write(Path(results))))
+    click.echo(atlas_of.report(Path(results)))
+    if output:
+        atlas_of.renew(Path(output), Path(results))
+
+
+@cli.command()
+@click.argument("results")
+def cfl(results):
+    """Find the largest stable Courant number of each scheme, order and model, for a study's table of them.
+
+    RESULTS is the study's folder, such as results/stability.
+    """
+    from subslide import courant, jobs
+
+    jobs.set_threads(1)
+    click.echo(str(courant.write(Path(results))))
+
+
+@cli.command()
 @click.argument("name")
 @click.option(
     "--results", required=True, metavar="FOLDER", help="folder of a study with its tables and records"

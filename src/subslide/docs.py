@@ -1,6 +1,18 @@
 """Pages of documentation that follow from the code, so that each fact has one place."""
 
-from subslide import bands, claims, convergence, errors, fields, scenes, schema, tables
+from subslide import (
+    atlas,
+    bands,
+    claims,
+    convergence,
+    courant,
+    errors,
+    fields,
+    scenes,
+    schema,
+    tables,
+    thinning,
+)
 
 CONFIG_PAGE, TABLES_PAGE, RECORDS_PAGE = "config/README.md", "docs/tables.md", "docs/records.md"
 
@@ -188,13 +200,16 @@ def columns() -> str:
             _section("timing.csv", "One row a run.", tables.TIMING),
             _section(
                 "series.csv",
-                f"Columns `id`, `time` (s), `quantity`, `value`: one row a sample, and a sample each time step. Above"
+                f"Columns `id`, `time` (s), `quantity`, `value`: one row a sample, and a sample each time step (of runs"
+                f" of more than {thinning.LONGEST} steps those that keep every extreme; see docs/records.md). Above"
                 f" {tables.MOST_RUNS_IN_CSV} runs it is `series.parquet` instead. Quantities:",
                 quantities,
             ),
             _section("bands.csv", _bands_text(), bands.COLUMNS),
             _section("claims.csv", _claims_text(), claims.COLUMNS),
             _section("errors.csv", _errors_text(), errors.COLUMNS),
+            _section("atlas.csv", _paragraphs(atlas), atlas.COLUMNS),
+            _section("cfl.csv", _paragraphs(courant), courant.COLUMNS),
         )
     )
 
@@ -251,6 +266,17 @@ Quantities:
 Verdicts:
 
 {verdicts}"""
+
+
+def _paragraphs(module) -> str:
+    """Docstring of a module whose table is in studies with figures of stability, names of its constants with values."""
+    names = {
+        f"`{name}`": f"{value}" for name, value in vars(module).items() if isinstance(value, int | float)
+    }
+    text = module.__doc__.strip()
+    for name, value in names.items():
+        text = text.replace(name, value)
+    return f"In studies with figures of stability.\n\n{text}"
 
 
 def _section(title: str, text: str, rows: dict[str, tuple[str, str]]) -> str:
