@@ -32,6 +32,7 @@ ENDED = {
     k.NOT_FINITE: "diverged",
     k.NEGATIVE: "negative_depth",
     k.COLLAPSED: "step_collapse",
+    k.SHEARED: "hyperbolicity_lost",
 }
 assert set(ENDED.values()) <= set(STATUSES)
 
@@ -158,12 +159,12 @@ def advance_to(model, clock, chunks, look):
 def describe(status, model, series, time_scale):
     """Return one line on a run that did not end well: what, when, after how many steps, and where."""
     text = f"{STATUSES[status]}; t = {series[-1, k.TIME] * time_scale:.6g} s, step {len(series) - 1}"
-    suspect = model.suspect()
-    return (
-        f"{text}, {suspect}"
-        if suspect and status in ("diverged", "negative_depth", "step_collapse")
-        else text
-    )
+    suspect = ""
+    if status in ("diverged", "negative_depth", "step_collapse"):
+        suspect = model.suspect()
+    elif status == "hyperbolicity_lost":
+        suspect = model.sheared()
+    return f"{text}, {suspect}" if suspect else text
 
 
 def make_run(point, model, series, snapshots, status, detail, wall, clock):

@@ -27,7 +27,7 @@ def scene(
     speeds="exact",
     **law,
 ):
-    """Scaled numbers of a run in double precision; `law` holds the fields of a friction law beside Coulomb's."""
+    """Scaled numbers of a run in double precision; `law` holds the fields that lean kernels leave out."""
     real = np.float64
     found = Scene(
         layers=layers,

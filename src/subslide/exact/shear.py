@@ -136,6 +136,10 @@ def amplitudes(point, x, profiles):
 def measured_growth(point, x, times, profiles):
     """Return the rate (1/s) at which the point's wave grows in profiles of h2 or eta (snapshots, x) at `times` (s).
 
-    It is the slope of the line that fits log(amplitude) best.
+    It is the slope of the line that fits log(amplitude) best; NaN for less than two times, or no finite amplitude.
     """
-    return float(np.polyfit(times, np.log(amplitudes(point, x, profiles)), 1)[0])
+    times = np.asarray(times, float)
+    found = amplitudes(point, x, profiles)
+    if np.ptp(times) == 0 or not (np.isfinite(found) & (found > 0)).all():
+        return math.nan
+    return float(np.polyfit(times, np.log(found), 1)[0])

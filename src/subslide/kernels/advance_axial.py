@@ -11,6 +11,7 @@ from . import clock as k
 from .arrays import GHOSTS
 from .axial import cell_speeds, edges, faces, fill_ghosts, fill_stuck, grain_edges, marks, update
 from .boundary import OPEN
+from .interlayer import judged
 from .jit import inlined, launch
 from .reduce import largest, smallest
 
@@ -93,6 +94,7 @@ def advance_axial(
                 rim >= thresholds[0] or row[k.GRAINS] < least_grains,
                 n == samples.shape[0],
             )
+            code = judged(s, code, row[k.COMPLEX])
             if code == k.RUNNING:
                 pace = largest(c.pace)
                 stop = clock[k.STOP]

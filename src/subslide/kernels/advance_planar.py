@@ -14,6 +14,7 @@ from ..diagnostics.surface import largest_displacement
 from . import clock as k
 from .arrays import GHOSTS
 from .boundary import OPEN, join_plane
+from .interlayer import judged
 from .jit import driver, inlined, launch
 from .planar import (
     cell_speeds,
@@ -178,6 +179,7 @@ def advance_planar(
             largest(rows[:, RIM]) >= thresholds[0] or sample[k.GRAINS] < probe[1],
             n == samples.shape[0],
         )
+        code = judged(s, code, sample[k.COMPLEX])
         if code == k.RUNNING:
             pace = largest(rows[:, PACE])
             stop = clock[k.STOP]

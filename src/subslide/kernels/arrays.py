@@ -33,6 +33,10 @@ class Scene(NamedTuple):
     turbulence: float = 0.0  # g / (xi a_2)
     friction_rise: float = 0.0  # (tan(delta_2) - tan(delta)) R / H2
     depths: float = 0.0  # H2 / pouliquen_length
+    treatment: int = 0  # see `interlayer.TREATMENTS`
+    as_printed: int = 0  # see `printed.AS_PRINTED`
+    printed_bound: float = 0.0  # (1-r) tan(delta) g / sqrt(g H2), numbers in SI units: see `printed.braking`
+    viscous_friction: int = 1  # 0: the viscosity does not see what friction holds
 
 
 GeneralScene = NamedTuple("GeneralScene", [*Scene.__annotations__.items(), ("general", int)])

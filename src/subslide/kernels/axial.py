@@ -8,9 +8,11 @@ from .arrays import GHOSTS, is_general
 from .boundary import WALL, copied_after, copied_before, join
 from .edge import edge_fluxes, grain_edge_fluxes
 from .friction import COULOMB, further
-from .friction.coulomb import coulomb, drive, holds
+from .friction.coulomb import drive, holds
+from .interlayer import rub
 from .jit import inlined
 from .positivity import limit, share
+from .printed import braking
 from .reconstruct import depth_slopes, grain_slopes, mc, rates
 from .velocity import velocity
 from .waves import chosen_outer_speeds, grain_speeds
@@ -205,7 +207,8 @@ def update(s, c, fx, mk, area, inverse_volume, dt):
         c.h1[i] = h1
         c.h2[i] = h2
         c.u1[i] = velocity(q1, h1, s.dry_depth)
-        c.u2[i] = u2 * coulomb(reach, abs(u2), mk.held[i])
+        c.u2[i] = u2 * braking(s, reach, abs(u2), mk.held[i])
     if is_general(s) and s.law != COULOMB:
         for i in range(GHOSTS, GHOSTS + inverse_volume.shape[0]):
             c.u2[i] *= further(s, dt, c.h2[i], abs(c.u2[i]))
+    rub(s, c.h1, c.u1, c.v1, c.h2, c.u2, c.v2)

@@ -6,6 +6,7 @@ State normal to the edge, scaled (g = 1): depths h1, h2 and velocities u1, u2; l
 import math
 
 from .arrays import is_general
+from .interlayer import takes_hll
 from .jit import inlined
 from .viscosity import ROE, RUSANOV, coefficients, hll, rusanov
 from .viscosity.roe import roe_viscosity
@@ -58,6 +59,12 @@ def front_fluxes(r, h_i, u_i, root_i, h_j, u_j, root_j):
 
 
 @inlined
+def sees_friction(s):
+    """Return whether the viscosity sees what friction holds; without it piles at rest creep."""
+    return not is_general(s) or s.viscous_friction != 0
+
+
+@inlined
 def edge_fluxes(s, stuck, slowest, fastest, h1_i, u1_i, h2_i, u2_i, h1_j, u1_j, h2_j, u2_j, d_eta):
     """Return (f1, m1, p1, f2, m2, p2): for each layer the flux of mass, of momentum, and the pressure product.
 
@@ -95,6 +102,11 @@ def edge_fluxes(s, stuck, slowest, fastest, h1_i, u1_i, h2_i, u2_i, h1_j, u1_j, 
     s_int = intermediate_speed(s_l, s_r, centre, half_width_squared)
     dry = min(min(h1_i, h1_j), min(h2_i, h2_j)) <= s.dry_depth
     a0, a1, a2 = coefficients(s.scheme, s_l, s_int, s_r, dry)
+    plain = takes_hll(s, dry, h1, h2, (u1 - u2) * (u1 - u2))
+    if plain:
+        a0, a1, a2 = hll(s_l, s_r)
+    held = stuck
+    stuck = held and sees_friction(s)
 
     e1 = d_eta if stuck else d_h1
     e3 = zero if stuck else d_h2
@@ -107,7 +119,7 @@ def edge_fluxes(s, stuck, slowest, fastest, h1_i, u1_i, h2_i, u2_i, h1_j, u1_j, 
 
     f2 = half * (q2_i + q2_j - (a0 * e3 + a1 * d_q2 + a2 * b4))
     m2 = half * (q2_i * u2_i + q2_j * u2_j - (a0 * d_q2 + a1 * b4 + a2 * c4))
-    front = s.exact_front and not stuck and h2_i != h2_j and min(h2_i, h2_j) <= s.dry_depth
+    front = s.exact_front and not held and h2_i != h2_j and min(h2_i, h2_j) <= s.dry_depth
     f2_front, m2_front = front_fluxes(r, h2_i, u2_i, root2_i, h2_j, u2_j, root2_j)
     f2 = f2_front if front else f2
     m2 = m2_front if front else m2
@@ -116,7 +128,7 @@ def edge_fluxes(s, stuck, slowest, fastest, h1_i, u1_i, h2_i, u2_i, h1_j, u1_j, 
     both = a0 * (e1 + e3) + a1 * (d_q1 + d_q2)
     v1 = both - (q2_i + q2_j - (f2 + f2)) if front else a0 * e1 + a1 * d_q1 + a2 * b2
     v2 = a0 * d_q1 + a1 * b2 + a2 * c2
-    if is_general(s) and s.scheme == ROE and not dry:
+    if is_general(s) and s.scheme == ROE and not dry and not plain:
         a = (u1, k1, h1, u2, k2, r * h2)
         jumps = (e1, d_q1, e3, d_q2, b2, b4, c2, c4)
         v1, v2, v3, v4 = roe_viscosity(a, slow, fast, centre, half_width_squared, slowest, fastest, jumps)
@@ -153,11 +165,13 @@ def grain_edge_fluxes(s, stuck, h_i, u_i, h_j, u_j):
     q_i = h_i * u_i
     q_j = h_j * u_j
     d_q = q_j - q_i
+    held = stuck
+    stuck = held and sees_friction(s)
     e = zero if stuck else h_j - h_i
     b = (h - u * u) * e + (u + u) * d_q
     f = half * (q_i + q_j - (a0 * e + a1 * d_q))
     m = half * (q_i * u_i + q_j * u_j - (a0 * d_q + a1 * b))
-    front = s.exact_front and not stuck and h_i != h_j and min(h_i, h_j) <= s.dry_depth
+    front = s.exact_front and not held and h_i != h_j and min(h_i, h_j) <= s.dry_depth
     f_front, m_front = front_fluxes(zero, h_i, u_i, root_i, h_j, u_j, root_j)
     f = f_front if front else f
     return (zero if stuck else f), (m_front if front else m), h * (h_j - h_i)

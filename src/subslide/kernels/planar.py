@@ -8,9 +8,11 @@ from .arrays import GHOSTS, Side, is_general
 from .boundary import WALL, copied_after, copied_before
 from .edge import edge_fluxes
 from .friction import COULOMB, further
-from .friction.coulomb import coulomb, drive, holds
+from .friction.coulomb import drive, holds
+from .interlayer import rub
 from .jit import inlined
-from .positivity import donor, limit, share
+from .positivity import limit, share
+from .printed import braking, carried
 from .reconstruct import depth_slopes, grain_slopes, mc, rates
 from .velocity import norm, velocity
 from .waves import chosen_outer_speeds
@@ -210,8 +212,8 @@ def edges_x(s, c, j, left, right, b, fx):
         )
         fx.f1[j, k], fx.m1[j, k], fx.p1[j, k] = f1, m1, p1
         fx.f2[j, k], fx.m2[j, k], fx.p2[j, k] = f2, m2, p2
-        fx.t1[j, k] = f1 * donor(f1, right.v1[b, i], left.v1[b, n])
-        fx.t2[j, k] = f2 * donor(f2, right.v2[b, i], left.v2[b, n])
+        fx.t1[j, k] = f1 * carried(s, f1, left.h1[b, n], right.v1[b, i], left.h1[b, n], left.v1[b, n])
+        fx.t2[j, k] = f2 * carried(s, f2, right.h2[b, i], right.v2[b, i], left.h2[b, n], left.v2[b, n])
 
 
 @inlined
@@ -239,8 +241,8 @@ def edges_y(s, c, j, lower, upper, b, u, fy):
         )
         fy.f1[j, k], fy.m1[j, k], fy.p1[j, k] = f1, m1, p1
         fy.f2[j, k], fy.m2[j, k], fy.p2[j, k] = f2, m2, p2
-        fy.t1[j, k] = f1 * donor(f1, upper.u1[u, i], lower.u1[b, i])
-        fy.t2[j, k] = f2 * donor(f2, upper.u2[u, i], lower.u2[b, i])
+        fy.t1[j, k] = f1 * carried(s, f1, lower.h1[b, i], upper.u1[u, i], lower.h1[b, i], lower.u1[b, i])
+        fy.t2[j, k] = f2 * carried(s, f2, upper.h2[u, i], upper.u2[u, i], lower.h2[b, i], lower.u2[b, i])
 
 
 @inlined
@@ -295,7 +297,7 @@ def update(s, c, fx, fy, mk, j, dt):
         push_y2 = ratio * (half * (fy.p2[j, k] + fy.p2[j + 1, k]) + mk.inner_p2y[p, i])
         u2 = velocity(h2 * c.u2[p, i] + (gain_x2 - push_x2), new2, s.dry_depth)
         v2 = velocity(h2 * c.v2[p, i] + (gain_y2 - push_y2), new2, s.dry_depth)
-        factor = coulomb(reach, norm(u2, v2), mk.held[p, i])
+        factor = braking(s, reach, norm(u2, v2), mk.held[p, i])
         c.u1[p, i] = velocity(h1 * c.u1[p, i] + (gain_x1 - push_x1), new1, s.dry_depth)
         c.v1[p, i] = velocity(h1 * c.v1[p, i] + (gain_y1 - push_y1), new1, s.dry_depth)
         c.u2[p, i] = factor * u2
@@ -307,3 +309,4 @@ def update(s, c, fx, fy, mk, j, dt):
             factor = further(s, dt, c.h2[p, i], norm(c.u2[p, i], c.v2[p, i]))
             c.u2[p, i] *= factor
             c.v2[p, i] *= factor
+    rub(s, c.h1[p], c.u1[p], c.v1[p], c.h2[p], c.u2[p], c.v2[p])

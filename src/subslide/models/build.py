@@ -8,6 +8,8 @@ from .. import scenes
 from ..kernels.arrays import GeneralScene, Scene
 from ..kernels.boundary import BOUNDARIES, WALL
 from ..kernels.friction import LAWS
+from ..kernels.interlayer import TREATMENTS
+from ..kernels.printed import AS_PRINTED
 from ..kernels.viscosity import SCHEMES
 from ..kernels.waves import SPEEDS
 from .axial import Axial
@@ -35,6 +37,10 @@ def scaled(point, layers, dx, dry_depth):
         turbulence=real(point.g / (point.xi * point.a_2)),
         friction_rise=real((math.tan(math.radians(point.delta_2)) - mu) / point.a_2),
         depths=real(point.a_2 * point.radius / point.pouliquen_length),
+        treatment=TREATMENTS[point.treatment],
+        as_printed=AS_PRINTED[point.as_printed],
+        printed_bound=real((1 - point.r) * mu * math.sqrt(point.g / (point.a_2 * point.radius))),
+        viscous_friction=int(point.friction_in_viscosity),
     )
     return GeneralScene(*scene, general=1) if needs_general(point) else scene
 

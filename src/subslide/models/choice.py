@@ -51,4 +51,11 @@ def geometry(model, point):
 
 def needs_general(point):
     """Return whether a point needs the general kernels: whatever the lean ones leave out for speed."""
-    return point.scheme == "roe" or point.wave_speeds != "exact" or point.friction != "coulomb"
+    lean = {
+        "wave_speeds": "exact",
+        "friction": "coulomb",
+        "treatment": "real",
+        "as_printed": "none",
+        "friction_in_viscosity": True,
+    }
+    return point.scheme == "roe" or any(getattr(point, key) != value for key, value in lean.items())

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..kernels.arrays import GHOSTS
+from ..kernels.interlayer import is_complex
 
 LOST_GRAINS = 1e-3
 """Fraction of the grains that may leave the box, thinner than the front, before the run counts as `left_domain`."""
@@ -10,11 +11,36 @@ LOST_GRAINS = 1e-3
 
 def first_suspect(cells, names):
     """Return the first cell that is not finite or has a negative depth, with its scaled state; '' if there is none."""
-    inner = (slice(GHOSTS, -GHOSTS),) * cells.h1.ndim
-    values = {name: getattr(cells, name)[inner] for name in names}
+    values = inner(cells, names)
     bad = (values["h1"] < 0) | (values["h2"] < 0)
     for array in values.values():
         bad |= ~np.isfinite(array)
+    return described(bad, values)
+
+
+def first_sheared(cells, names, scene):
+    """Return the first cell whose wave speeds are complex along its shear, likewise."""
+    values = inner(cells, names)
+    real = type(scene.r)
+    square = sum((values[a] - values[b]) ** 2 for a, b in (("u1", "u2"), ("v1", "v2")) if a in values)
+    h1, h2 = values["h1"], values["h2"]
+    lost = np.minimum(h1, h2) > scene.dry_depth
+    for where in np.argwhere(lost):
+        place = tuple(where)
+        lost[place] = is_complex(real(h1[place]), real(h2[place]), real(square[place]), scene.r)
+        if lost[place]:
+            break
+    return described(lost, values)
+
+
+def inner(cells, names):
+    """Return the fields of a state by name, without ghost cells."""
+    inside = (slice(GHOSTS, -GHOSTS),) * cells.h1.ndim
+    return {name: getattr(cells, name)[inside] for name in names}
+
+
+def described(bad, values):
+    """Return the first cell where `bad` is true, with its scaled state; '' if there is none."""
     if not bad.any():
         return ""
     where = tuple(int(index) for index in np.argwhere(bad)[0])

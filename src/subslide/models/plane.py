@@ -4,7 +4,7 @@ import numpy as np
 
 from ..kernels.advance_planar import BLOCK, ROW_COLUMNS, advance_planar
 from ..kernels.arrays import GHOSTS, Cells, Fluxes, Marks, Side, allocate
-from .limits import LOST_GRAINS, first_suspect
+from .limits import LOST_GRAINS, first_sheared, first_suspect
 
 
 class Plane:
@@ -90,6 +90,10 @@ class Plane:
     def suspect(self):
         """Return where the state is first not finite or negative, and what stands there; '' if nowhere."""
         return first_suspect(self.cells, ("h1", "u1", "v1", "h2", "u2", "v2"))
+
+    def sheared(self):
+        """Return where wave speeds are first complex, and the state there; '' if nowhere."""
+        return first_sheared(self.cells, ("h1", "u1", "v1", "h2", "u2", "v2"), self.scene)
 
 
 def columns_within_radius(padded_rows, row, column, dx, box):
