@@ -1,8 +1,23 @@
-"""Settings that hold for every test."""
+"""Settings that hold for every test, and the long lane."""
 
+import pytest
 from hypothesis import settings
 
 settings.register_profile(
     "subslide", deadline=None, derandomize=True
 )  # the first call compiles; CI must not be a lottery
 settings.load_profile("subslide")
+
+
+def pytest_addoption(parser):
+    """Nothing; `--long` is an option."""
+    parser.addoption("--long", action="store_true", help="run the long lane too (make test-all)")
+
+
+def pytest_collection_modifyitems(config, items):
+    """Nothing; tests marked `long` are skipped without `--long`."""
+    if config.getoption("--long"):
+        return
+    for item in items:
+        if "long" in item.keywords:
+            item.add_marker(pytest.mark.skip(reason="long lane: make test-all"))

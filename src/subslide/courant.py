@@ -17,9 +17,9 @@ So a number is called stable only if its answer is worth having. Numbers are tri
 is not stable (downwards by halves if `SAFE` is not), then the gap is halved down to `WIDTH`; every number tried is a
 row. Stability need not be monotone: the limit is a stable number above which the next one tried is not.
 
-Theory: a step within which the fastest wave crosses at most one cell (Courant number `THEORY`), for first order on a line and on
-a radius; in the plane too, since the step follows the sum of both directions' fastest waves (donor-cell condition);
-for MUSCL-Hancock as well, by linear theory (Toro 2009, section 14.4). That depths stay positive is proven for
+Theory: a step within which the fastest wave crosses at most one cell, Courant number `THEORY`, for first order on a
+line and on a radius; in the plane too, since the step follows the sum of both directions' fastest waves (donor-cell
+condition); for MUSCL-Hancock as well, by linear theory (Toro 2009, section 14.4). That depths stay positive is proven for
 MUSCL-Hancock up to 1/2 alone (Berthon 2006); here what leaves a cell is limited by what it holds. A wave whose speed is
 the same everywhere meets the theoretical limit; in a collapse only a few cells are as fast as the step allows for, and
 it may bear more.
@@ -115,15 +115,6 @@ def write(folder: Path) -> Path:
     path.parent.mkdir(parents=True, exist_ok=True)
     write_text(path, table().to_csv(index=False, float_format="%.10g", lineterminator="\n"))
     return path
-
-
-def limits(tried: pd.DataFrame) -> pd.DataFrame:
-    """Rows of a table of the search at the largest stable number of each model, scene, scheme and order; where no
-    number is stable, cfl is 0."""
-    keys = ["model", "scene", "scheme", "order"]
-    every = tried.groupby(keys, sort=False).first().reset_index()
-    found = every[[*keys, "theory"]].merge(tried[tried["limit"]][[*keys, "cfl"]], how="left", on=keys)
-    return found.fillna({"cfl": 0.0})
 
 
 def table(cases=CASES, schemes=SCHEMES, orders=ORDERS) -> pd.DataFrame:

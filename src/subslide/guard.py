@@ -1,0 +1,168 @@
+"""Regions of parameters and numerics that the stability atlas found unsafe: a run in one says so once, on stderr.
+
+Each region is earned: tests/study/test_guard.py solves its `example` and shows that it fails, gains energy or misses the
+answer, where the same run with what the region suggests does not. Imports no kernels.
+"""
+
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
+
+from subslide.points import Point, friction_number
+
+
+class Region(NamedTuple):
+    """A region: whether a point lies in it, why it is unsafe, what to choose instead, and where that was seen.
+
+    example: keys of a run in it that shows the harm; instead: keys that mend that run; seen: the study and its part.
+    """
+
+    name: str
+    holds: Callable[[Point], bool]
+    reason: str
+    advice: str
+    example: dict
+    instead: dict
+    seen: str
+
+
+FILM = 0.1
+"""Depth of water over the column, over its height, below which a step of grains at rest may drive it."""
+HELD = (0.6, 3.0)
+"""Range of tan(delta)/a_2 in which some of the column stays at rest with a steep edge."""
+LARGEST_CFL = 1.0
+
+
+def _under_film(point: Point) -> bool:
+    return (
+        point.scene in ("cylinder", "columns", "ellipse")
+        and point.model != "one-layer"
+        and point.quantities == "all"
+        and point.a_H < FILM
+        and HELD[0] <= friction_number(point) <= HELD[1]
+        and point.r < 0.9
+    )
+
+
+def _endless(point: Point) -> bool:
+    return point.t_end is None and point.friction == "coulomb" and point.delta == 0
+
+
+def _standing_jump(point: Point) -> bool:
+    dry = dict(point.scene_options).get("downstream", 0.0) == 0
+    return point.scene == "dam_break" and dry and point.order == 1 and point.scheme in ("ifcp", "roe")
+
+
+def _sliding(point: Point) -> bool:
+    shear = dict(point.scene_options).get("shear", 1.2)
+    return point.scene == "shear" and shear > 1 and point.treatment in ("real", "hll")
+
+
+REGIONS = (
+    Region(
+        "film of water",
+        _under_film,
+        f"below a_H = {FILM:g}, with tan(delta)/a_2 from {HELD[0]:g} to {HELD[1]:g}, many runs gain energy or end as"
+        " step_collapse: grains at rest hold a step that drives the film of water over it",
+        f"a_H of {FILM:g} or more; or r: 0 with quantities: grains, which leaves the water out",
+        {"a_H": 0.0215, "delta": 40, "cells": 100, "boundary": "wall"},
+        {"a_H": 0.2},
+        "stability, maps of a_H by r and by delta",
+    ),
+    Region(
+        "Courant number",
+        lambda point: point.cfl > LARGEST_CFL,
+        "above a Courant number of 1 no scheme is stable: energy and oscillations between cells grow",
+        "cfl of 0.9 or less",
+        {"cfl": 1.5, "delta": 0, "boundary": "wall", "t_end": 0.6, "cells": 100, "order": 1},
+        {"cfl": 0.9},
+        "stability, table of Courant numbers",
+    ),
+    Region(
+        "no friction",
+        _endless,
+        "grains without friction never rest: the run ends when they leave the largest box, or at the cap in time",
+        "a number for t_end, or delta above 0",
+        {"delta": 0, "cells": 40},
+        {"t_end": 0.2},
+        "stability, map of a_2 by delta",
+    ),
+    Region(
+        "printed friction",
+        lambda point: point.as_printed == "friction",
+        "the paper's printed test of rest compares a speed with an acceleration: grains do not stop as friction says",
+        "as_printed: none",
+        {"as_printed": "friction", "cells": 40},
+        {"as_printed": "none"},
+        "stability, printed formulas",
+    ),
+    Region(
+        "creeping",
+        lambda point: not point.friction_in_viscosity,
+        "without friction in the viscosity grains that friction holds creep for ever, fastest at first order",
+        "friction_in_viscosity: true",
+        {
+            "friction_in_viscosity": False,
+            "scene": "pile",
+            "scene_options": {"steepness": 0.95},
+            "order": 1,
+            "cells": 40,
+            "t_end": 2,
+        },
+        {"friction_in_viscosity": True},
+        "stability, piles",
+    ),
+    Region(
+        "standing jump",
+        _standing_jump,
+        "at first order this solver keeps a standing jump where a wave speed passes zero on a dry bed, on any grid",
+        "scheme: ifcph, or order: 2",
+        {
+            "scene": "dam_break",
+            "scene_options": {"layer": "water"},
+            "a_H": 0,
+            "scheme": "ifcp",
+            "order": 1,
+            "delta": 0,
+            "cells": 200,
+            "t_end": 0.17,
+        },
+        {"scheme": "ifcph"},
+        "accuracy, dam breaks",
+    ),
+    Region(
+        "sliding layers",
+        _sliding,
+        "above the limit of hyperbolicity finer waves grow faster: answers do not converge as cells shrink",
+        "treatment: friction, or stop, or a shear below 1",
+        {
+            "scene": "shear",
+            "scene_options": {"shear": 1.5, "amplitude": 1e-3},
+            "boundary": "periodic",
+            "delta": 0,
+            "cells": 100,
+            "t_end": 1.5,
+        },
+        {"treatment": "friction"},
+        "stability, layers that slide",
+    ),
+)
+
+
+def regions_of(point: Point) -> list[Region]:
+    """Regions that a point lies in."""
+    return [region for region in REGIONS if region.holds(point)]
+
+
+def cautions(points: Iterable[Point]) -> list[str]:
+    """Lines to say of points, one for each region that any lies in, with how many do where there are several."""
+    points = list(points)
+    lines = []
+    for region in REGIONS:
+        count = sum(map(region.holds, points))
+        if count:
+            who = f"{count} of {len(points)} runs" if len(points) > 1 else "this run"
+            lines.append(
+                f"caution, {region.name} ({who}): {region.reason}. Choose {region.advice}."
+                " See docs/stability.md."
+            )
+    return lines
