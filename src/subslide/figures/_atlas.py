@@ -49,7 +49,8 @@ def maps(results, title, across, up, **values):
     own = rows[rows["cells"] == rows.groupby("cells")["scheme"].nunique().idxmax()]
     axes_values = [dense(own, key, other) for key, other in ((across, up), (up, across))]
     own = own[own[across].isin(axes_values[0]) & own[up].isin(axes_values[1])]
-    fine = rows[(rows["cells"] == rows["cells"].max()) & (rows["cells"] > own["cells"].max())]
+    finer = rows[(rows["cells"] > own["cells"].max()) & rows["id"].isin(own["reference"])]
+    fine = finer[finer["cells"] == finer["cells"].mode().max()] if len(finer) else finer
     schemes, orders = list(dict.fromkeys(own["scheme"])), sorted(own["order"].unique())
     figure, axes = _style.panels(len(schemes) * len(orders), len(schemes), 1.75, sharex=True, sharey=True)
     look = mpl.colormaps["YlGnBu"].with_extremes(bad="0.86")
@@ -61,15 +62,16 @@ def maps(results, title, across, up, **values):
         )
         mark(ax, part, across, up, axes_values)
         contour(ax, fine, across, up, axes_values)
-        ax.set_title(_words.panel(k, f"{scheme.upper()}, order {order}"))
+        ax.set_title(_words.panel(k, scheme.upper()))
         ticks(ax, across, up, axes_values)
         ax.grid(False)
     for k, ax in enumerate(axes):
         ax.set_xlabel(axis(across) if k // len(schemes) == len(orders) - 1 else "")
-        ax.set_ylabel(axis(up) if k % len(schemes) == 0 else "")
+        ax.set_ylabel(f"order {orders[k // len(schemes)]}\n{axis(up)}" if k % len(schemes) == 0 else "")
     bar = figure.colorbar(shown, ax=axes, shrink=0.6, aspect=30, extend="max", pad=0.01)
     bar.set_label("error of $L_f$ (1)")
-    entries = [(Line2D([], [], linestyle="", **MARKS[key]), WORDS[key]) for key in MARKS]
+    seen = {kind_of(row) for _, row in own.iterrows()}
+    entries = [(Line2D([], [], linestyle="", **MARKS[key]), WORDS[key]) for key in MARKS if key in seen]
     entries += [
         (Patch(facecolor="0.86"), "no answer, or none to compare with"),
         (
@@ -126,7 +128,7 @@ def contour(ax, fine, across, up, values):
 def ticks(ax, across, up, values):
     """Nothing; each second value or so is written on the axes, whose cells all have the same size."""
     for key, axis_values, place in ((across, values[0], ax.set_xticks), (up, values[1], ax.set_yticks)):
-        step = -(-len(axis_values) // (5 if key == across else 12))
+        step = -(-len(axis_values) // (4 if key == across else 12))
         at = range(0, len(axis_values), step)
         place([k + 0.5 for k in at], [_words.number(axis_values[k]) for k in at])
 

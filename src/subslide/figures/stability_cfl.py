@@ -44,8 +44,8 @@ def draw(results):
     ]
     notes = [
         "Found by bisection without friction between walls; a run counts as stable if volumes hold, its energy and total "
-        "variation do not grow and it stays near the resolved run (docs/tables.md). In a collapse few cells are as fast as "
-        "the step allows for, so it bears more than a wave. 'none': energy rises at any Courant number."
+        "variation do not grow and it stays near the resolved run (docs/tables.md). In a collapse few cells are as fast "
+        "as the step allows for, so it bears more than a wave. 'none': energy rises at any Courant number."
     ]
     tried = f"{len(results.cfl)} runs"
     return _style.finish(figure, TITLE, tried, notes, entries, 4)

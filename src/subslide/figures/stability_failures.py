@@ -1,6 +1,5 @@
 """What failure looks like: profiles and series of runs that went wrong, beside those that did not."""
 
-import numpy as np
 from matplotlib.lines import Line2D
 
 from subslide import atlas
@@ -40,110 +39,99 @@ def draw(results):
 
 
 def creeping(ax, results):
-    """Return the title of a panel of a pile, which friction must hold, after long creeping."""
-    rows = results.atlas[(results.atlas["scene"] == "pile") & (results.atlas["scheme"] == Point.scheme)]
-    rows = rows[rows["order"] == 1]
-    with_it = rows[rows["friction_in_viscosity"].astype(bool)]
-    without = rows[~rows["friction_in_viscosity"].astype(bool)]
-    if with_it.empty or without.empty:
+    """Return the title of a panel of a pile, which friction must hold, after long creeping; None without such runs."""
+    wrong = first(results, scene="pile", friction_in_viscosity=False)
+    right = wrong is not None and twin(results, wrong, friction_in_viscosity=True)
+    if right is None or wrong is None:
         return None
-    first = profile(ax, results, with_it.iloc[0], START, at=0)
-    profile(ax, results, with_it.iloc[0], RIGHT)
-    last = profile(ax, results, without.iloc[0], WRONG)
+    profile(ax, results, right, START, at=0)
+    profile(ax, results, right, RIGHT)
+    last = profile(ax, results, wrong, WRONG)
     ax.set_xlim(0, 2.2)
     labels(ax, "$x/R$", "$h_2/H_2$")
-    return (
-        f"creeping: a pile at rest after {last:.3g} s\nwithout friction in the viscosity"
-        if first == 0
-        else None
-    )
+    return f"creeping: a pile at rest after {last:.3g} s\nwithout friction in the viscosity"
 
 
 def printed(ax, results):
-    """Return the title of a panel of the paper's printed test of rest."""
-    found = results.atlas[
-        (results.atlas["as_printed"] == "friction") & (results.atlas["r"] == Point.r)
-        & (results.atlas["a_H"] == Point.a_H) & (results.atlas["scheme"] == Point.scheme) & (results.atlas["order"] == 1)
-    ]  # fmt: skip
-    if found.empty:
+    """Return the title of a panel of the paper's printed test of rest; None without such a run."""
+    wrong = first(results, as_printed="friction", r=Point.r, a_H=1)
+    if wrong is None:
         return None
-    wrong = found.iloc[0]
     right = twin(results, wrong, as_printed="none")
-    for row, look in ((right, RIGHT), (wrong, WRONG)):
-        if row is not None:
-            data = results.record(row["id"])
-            ax.plot(data["time"], data["x_front"][0] / row["radius"], **look)
-    ax.set_xlim(0, 1.5)
-    labels(ax, "$t$ (s)", "$x_\\mathrm{front}/R$")
-    return f"the printed test of rest stops nothing\n(order 1, status {wrong['status']})"
+    if right is not None:
+        profile(ax, results, right, RIGHT)
+    last = profile(ax, results, wrong, WRONG)
+    ax.set_xlim(0, 3)
+    labels(ax, "$x/R$", "$h_2/H_2$")
+    return f"the printed test of rest stops nothing:\nstatus {wrong['status']} after {last:.3g} s"
 
 
 def checkerboard(ax, results):
-    """Return the title of a panel of oscillations between cells."""
+    """Return the title of a panel of oscillations between cells; None without such a run."""
     row = fast(results, ascending=True)
     if row is None:
         return None
-    data = results.record(row["id"])
-    profile(ax, results, row, WRONG, "eta", at=min(2, data.sizes["snapshot"] - 1))
+    at = min(2, results.record(row["id"]).sizes["snapshot"] - 1)
+    right = twin(results, row, cfl=Point.cfl)
+    if right is not None:
+        profile(ax, results, right, RIGHT, "eta", at)
+    time = profile(ax, results, row, WRONG, "eta", at)
     labels(ax, "$x/R$", "$\\eta/H_2$")
-    return f"checkerboard: Courant number {row['cfl']:g}\n({row['scheme'].upper()}, order {row['order']})"
+    return f"checkerboard: Courant number {row['cfl']:g},\n{method(row)}, {time:.3g} s"
 
 
 def blown_up(ax, results):
-    """Return the title of a panel of the last state of a run that blew up."""
+    """Return the title of a panel of the energy of a run that blew up; None without such a run."""
     row = fast(results, ascending=False)
     if row is None:
         return None
-    data = results.record(row["id"])
-    energy = data["energy"]
-    ax.semilogy(data["time"], energy / float(energy[0]), **WRONG)
-    labels(ax, "$t$ (s)", "energy over its start (1)")
-    return f"blow-up: Courant number {row['cfl']:g}, {row['scheme'].upper()},\norder {row['order']}: {row['status']}, {row['steps']} steps"
+    energy(ax, results, row, WRONG)
+    return (
+        f"blow-up: Courant number {row['cfl']:g}, {method(row)}:\n{row['status']} after {row['steps']} steps"
+    )
 
 
 def film(ax, results):
-    """Return the title of a panel of a run of the default scheme that failed under a film of water."""
-    rows = usual(results, status="step_collapse")
-    rows = rows[(rows["a_H"] > 0) & (rows["cells"] == 100)]
+    """Return the title of a panel of a run that failed under a film of water; None without such a run."""
+    rows = usual(results)
+    rows = rows[(rows["status"] == "step_collapse") & (rows["a_H"] > 0)]
     if rows.empty:
         return None
-    row = rows.sort_values("a_H").iloc[-1]
-    data = results.record(row["id"])
-    top = data["h2"].isel(snapshot=-1) / (row["a_2"] * row["radius"])
-    ax.plot(data["x"] / row["radius"], top, **START)
-    surface = 1 + row["a_H"] + data["eta"].isel(snapshot=-1) / (row["a_2"] * row["radius"])
-    ax.plot(data["x"] / row["radius"], surface, **WRONG)
-    ax.set_xlim(0, 4.2)
-    labels(ax, "$x/R$", "$h_2/H_2$, surface$/H_2$")
-    return f"film of {_words.equation('a_H', row['a_H'])}, {_words.equation('r', row['r'])}, order {row['order']}:\n{row['status']} at {float(data['time'][-1]):.3g} s"
+    row = rows.sort_values(["a_H", "id"]).iloc[-1]
+    data = results.record(row["id"]).isel(snapshot=-1)
+    height = row["a_2"] * row["radius"]
+    ax.plot(data["x"] / row["radius"], data["h2"] / height, **START)
+    ax.plot(data["x"] / row["radius"], 1 + row["a_H"] + data["eta"] / height, **WRONG)
+    labels(ax, "$x/R$", "$h_2/H_2$ and surface$/H_2$")
+    return f"the last state of {column(row)}:\n{row['status']}, the film's water runs away"
 
 
 def quiet(ax, results):
-    """Return the title of a panel of a run that ended well although its energy rose."""
+    """Return the title of a panel of a run that ended well although its energy rose; None without such a run."""
     rows = usual(results)
-    rows = rows[
-        rows["status"].isin(atlas.FINISHED) & (rows["energy_rise"] > atlas.GAINED) & (rows["cells"] == 100)
-    ]
+    rows = rows[rows["status"].isin(atlas.FINISHED) & (rows["energy_rise"] > atlas.GAINED)]
     if rows.empty:
         return None
-    row = rows.sort_values("energy_rise").iloc[-1]
-    data = results.record(row["id"])
-    energy = data["energy"] / float(data["energy"][0])
-    ax.semilogy(data["time"], energy, **WRONG)
+    row = rows.sort_values(["energy_rise", "id"]).iloc[-1]
+    energy(ax, results, row, WRONG)
     fine = results.atlas[results.atlas["id"] == row["reference"]]
     if len(fine):
-        data = results.record(fine.iloc[0]["id"])
-        ax.semilogy(data["time"], data["energy"] / float(data["energy"][0]), **RIGHT)
-    labels(ax, "$t$ (s)", "energy over its start (1)")
-    return f"status ok, yet energy rose: {_words.equation('a_H', row['a_H'])},\n{_words.equation('r', row['r'])}, order {row['order']} (blue: {800} cells)"
+        energy(ax, results, fine.iloc[0], RIGHT)
+    return f"status ok, yet energy rose: {column(row)}\n(blue: finest grid)"
 
 
-def usual(results, **values):
-    """Return the rows of collapses behind walls with the default scheme and these values."""
+def usual(results):
+    """Return the rows of collapses behind walls with the default scheme on the grid of the maps."""
     rows = _atlas.chosen(results, scheme=Point.scheme, boundary="wall")
-    for key, value in values.items():
+    return rows[rows["cells"] == rows["cells"].mode().iloc[0]]
+
+
+def first(results, **values):
+    """Return the first row of a first-order run of the default scheme with these values, or None."""
+    rows = results.atlas
+    for key, value in {"scheme": Point.scheme, "order": 1, **values}.items():
         rows = rows[rows[key] == value]
-    return rows
+    return rows.iloc[0] if len(rows) else None
 
 
 def fast(results, ascending):
@@ -155,7 +143,7 @@ def fast(results, ascending):
 def twin(results, row, **values):
     """Return the row of the run that differs in these values alone, or None."""
     found = results.atlas
-    keys = [
+    for key in (
         *_atlas.USUAL,
         "a_H",
         "a_2",
@@ -167,8 +155,7 @@ def twin(results, row, **values):
         "cells",
         "boundary",
         "model",
-    ]
-    for key in keys:
+    ):
         found = found[found[key] == values.get(key, row[key])]
     return found.iloc[0] if len(found) else None
 
@@ -177,7 +164,24 @@ def profile(ax, results, row, look, quantity="h2", at=-1):
     """Return the time (s) of a profile of a run, which is then in `ax`, over H2."""
     data = results.record(row["id"]).isel(snapshot=at)
     ax.plot(data["x"] / row["radius"], data[quantity] / (row["a_2"] * row["radius"]), **look)
-    return float(np.round(data["snapshot_time"], 9))
+    return float(data["snapshot_time"])
+
+
+def energy(ax, results, row, look):
+    """Nothing; the energy of a run over time is in `ax`, over that of its start."""
+    data = results.record(row["id"])
+    ax.semilogy(data["time"], data["energy"] / float(data["energy"][0]), **look)
+    labels(ax, "$t$ (s)", "energy$/E_0$ (1)")
+
+
+def method(row):
+    """Return a run's scheme and order, in words."""
+    return f"{row['scheme'].upper()} of order {row['order']}"
+
+
+def column(row):
+    """Return what tells a run's column apart, in words."""
+    return ", ".join(_words.equation(key, row[key]) for key in ("a_H", "r", "delta", "order"))
 
 
 def labels(ax, x, y):
