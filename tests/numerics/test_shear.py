@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from states import advance, axial, plane
 from test_waves import matrix
 
 from subslide import config
 from subslide.exact import shear
+from subslide.kernels import clock as k
 from subslide.kernels import waves
 from subslide.solver import solve
 
@@ -58,6 +60,25 @@ def test_the_verdict_is_that_of_exact_arithmetic(h1, h2, r, side, distance):
     exact = 16 * p**4 * s - 4 * p**3 * q2 - 128 * p**2 * s**2 + 144 * p * q2 * s - 27 * q2**2 + 256 * s**3
     verdict = waves.discriminant(h1, h2, squared, r)
     assert verdict == pytest.approx(float(exact / (a + b + 4 * d2) ** 6), abs=64 * np.finfo(float).eps)
+
+
+@pytest.mark.parametrize("make", [axial, plane])
+def test_the_series_counts_the_cells_whose_matrix_has_complex_eigenvalues(make):
+    rng = np.random.default_rng(8)
+    shape = (24,) if make is axial else (24, 24)
+    h1, h2 = rng.uniform(0.1, 1.5, (2, *shape))
+    u = rng.uniform(-0.5, 0.5, (4, *shape))
+    if make is axial:
+        model = axial(np.arange(25) * 0.1, h1, u[0], h2, u[1], level=2.0, r=0.9)
+        shear = u[0] - u[1]
+    else:
+        velocities = dict(zip(("u1", "u2", "v1", "v2"), u, strict=True))
+        model = plane(np.arange(25) * 0.1, h1, h2, level=2.0, r=0.9, **velocities)
+        shear = np.hypot(u[0] - u[1], u[2] - u[3])
+    cells = zip(h1.ravel(), h2.ravel(), shear.ravel(), strict=True)
+    lost = sum(np.abs(np.linalg.eigvals(matrix(a, d, b, 0.0, 0.9)).imag).max() > 1e-6 for a, b, d in cells)
+    assert 0.1 * h1.size < lost < 0.9 * h1.size
+    assert advance(model, steps=1)[0][0, k.COMPLEX] == lost
 
 
 def run(part, folds, samples=5, **keys):

@@ -110,7 +110,7 @@ def test_friction_keeps_rough_flows_hyperbolic_and_their_volumes_and_momentum(or
     np.testing.assert_allclose(momentum(model).sum(axis=1), before, atol=1e-13)
     np.testing.assert_allclose(inner(model, "h1").sum(), h1.sum(), rtol=1e-14)
     np.testing.assert_allclose(inner(model, "h2").sum(), h2.sum(), rtol=1e-14)
-    assert np.diff(energies).max() < 1e-3 * energies[0]
+    assert np.diff(energies).max() < 0
 
 
 def test_friction_in_the_plane_shortens_the_shear_and_does_not_turn_it():

@@ -9,7 +9,7 @@ from .boundary import WALL, copied_after, copied_before, join
 from .edge import edge_fluxes, grain_edge_fluxes
 from .friction import COULOMB, further
 from .friction.coulomb import drive, holds
-from .interlayer import rub
+from .interlayer import FRICTION, rub
 from .jit import inlined
 from .positivity import limit, share
 from .printed import braking
@@ -211,4 +211,5 @@ def update(s, c, fx, mk, area, inverse_volume, dt):
     if is_general(s) and s.law != COULOMB:
         for i in range(GHOSTS, GHOSTS + inverse_volume.shape[0]):
             c.u2[i] *= further(s, dt, c.h2[i], abs(c.u2[i]))
-    rub(s, c.h1, c.u1, c.v1, c.h2, c.u2, c.v2)
+    if is_general(s) and s.treatment == FRICTION:
+        rub(s, c.h1, c.u1, c.v1, c.h2, c.u2, c.v2)

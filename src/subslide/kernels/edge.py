@@ -102,7 +102,7 @@ def edge_fluxes(s, stuck, slowest, fastest, h1_i, u1_i, h2_i, u2_i, h1_j, u1_j, 
     s_int = intermediate_speed(s_l, s_r, centre, half_width_squared)
     dry = min(min(h1_i, h1_j), min(h2_i, h2_j)) <= s.dry_depth
     a0, a1, a2 = coefficients(s.scheme, s_l, s_int, s_r, dry)
-    plain = takes_hll(s, dry, h1, h2, (u1 - u2) * (u1 - u2))
+    plain = takes_hll(s, dry, h1, u1, h2, u2)
     if plain:
         a0, a1, a2 = hll(s_l, s_r)
     held = stuck

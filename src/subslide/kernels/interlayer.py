@@ -28,9 +28,11 @@ def is_complex(h1, h2, shear_squared, r):
 
 
 @inlined
-def takes_hll(s, dry, h1, h2, shear_squared):
+def takes_hll(s, dry, h1, u1, h2, u2):
     """Return whether an edge with these means gets the viscosity of HLL because its speeds are complex."""
-    return is_general(s) and s.treatment == HLL_THERE and not dry and is_complex(h1, h2, shear_squared, s.r)
+    if is_general(s) and s.treatment == HLL_THERE and not dry:
+        return is_complex(h1, h2, (u1 - u2) * (u1 - u2), s.r)
+    return False
 
 
 @inlined
@@ -52,23 +54,22 @@ def hyperbolic_share(h1, h2, shear_squared, r):
 
 @inlined
 def rub(s, h1, u1, v1, h2, u2, v2):
-    """Bring the cells of a padded row whose speeds are complex back to the boundary of hyperbolicity, if chosen.
+    """Bring the cells of a padded row whose speeds are complex back to the boundary of hyperbolicity.
 
     Friction between the layers is as strong as that takes within the step (Castro, Fernandez-Nieto, Gonzalez-Vida and
     Pares 2011; Sarno et al. 2017) and keeps r h1 u1 + h2 u2.
     """
-    if is_general(s) and s.treatment == FRICTION:
-        one = type(s.r)(1)
-        for i in range(GHOSTS, h1.shape[0] - GHOSTS):
-            du = u1[i] - u2[i]
-            dv = v1[i] - v2[i]
-            square = du * du + dv * dv
-            if min(h1[i], h2[i]) > s.dry_depth and is_complex(h1[i], h2[i], square, s.r):
-                taken = (one - hyperbolic_share(h1[i], h2[i], square, s.r)) / (s.r * h1[i] + h2[i])
-                u1[i] -= taken * h2[i] * du
-                v1[i] -= taken * h2[i] * dv
-                u2[i] += taken * s.r * h1[i] * du
-                v2[i] += taken * s.r * h1[i] * dv
+    one = type(s.r)(1)
+    for i in range(GHOSTS, h1.shape[0] - GHOSTS):
+        du = u1[i] - u2[i]
+        dv = v1[i] - v2[i]
+        square = du * du + dv * dv
+        if min(h1[i], h2[i]) > s.dry_depth and is_complex(h1[i], h2[i], square, s.r):
+            taken = (one - hyperbolic_share(h1[i], h2[i], square, s.r)) / (s.r * h1[i] + h2[i])
+            u1[i] -= taken * h2[i] * du
+            v1[i] -= taken * h2[i] * dv
+            u2[i] += taken * s.r * h1[i] * du
+            v2[i] += taken * s.r * h1[i] * dv
 
 
 @inlined

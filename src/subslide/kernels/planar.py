@@ -9,7 +9,7 @@ from .boundary import WALL, copied_after, copied_before
 from .edge import edge_fluxes
 from .friction import COULOMB, further
 from .friction.coulomb import drive, holds
-from .interlayer import rub
+from .interlayer import FRICTION, rub
 from .jit import inlined
 from .positivity import limit, share
 from .printed import braking, carried
@@ -309,4 +309,5 @@ def update(s, c, fx, fy, mk, j, dt):
             factor = further(s, dt, c.h2[p, i], norm(c.u2[p, i], c.v2[p, i]))
             c.u2[p, i] *= factor
             c.v2[p, i] *= factor
-    rub(s, c.h1[p], c.u1[p], c.v1[p], c.h2[p], c.u2[p], c.v2[p])
+    if is_general(s) and s.treatment == FRICTION:
+        rub(s, c.h1[p], c.u1[p], c.v1[p], c.h2[p], c.u2[p], c.v2[p])
