@@ -111,11 +111,17 @@ def table(results: Results) -> pd.DataFrame:
             **growth(point, run),
             **errors(point, row["id"], runs, references),
         }
-        reasons = [text for text in (measured.pop("why_budget"), measured.pop("why_error")) if text]
+        reasons = [measured.pop(f"why_{part}") for part in ("budget", "growth", "error")]
         shown = {key: row[key] for key in COLUMNS if key in row}
         about = {key: found[key] for key in ("status", "status_detail", "steps")}
         rows.append(
-            {**shown, "scene_options": options_text(point), **about, **measured, "reason": "; ".join(reasons)}
+            {
+                **shown,
+                "scene_options": options_text(point),
+                **about,
+                **measured,
+                "reason": "; ".join(filter(None, reasons)),
+            }
         )
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
@@ -191,20 +197,23 @@ def budget(point: Point, run: xr.Dataset, row: pd.Series) -> dict:
 
 
 def growth(point: Point, run: xr.Dataset) -> dict:
-    """Entries of a row on the rate at which the wave of the scene `shear` grows: measured, and by linear theory."""
+    """Entries of a row on the rate at which the wave of the scene `shear` grows: measured, and by linear theory.
+
+    `why_growth` says why the measured one is empty.
+    """
+    none = {"growth_rate": math.nan, "growth_rate_theory": math.nan, "why_growth": ""}
     if point.scene != "shear":
-        return {"growth_rate": math.nan, "growth_rate_theory": math.nan}
+        return none
     answer = exact.load("shear")
     theory = answer.growth_rate(point)
     times = run["snapshot_time"].values
-    first = np.flatnonzero(np.diff(times) > 0)  # a run's end may be a snapshot too
-    times, profiles = times[first], run["h2"].values[first]
+    last = np.append(np.diff(times) > 0, True)  # a run's end may be a snapshot too
+    times, profiles = times[last], run["h2"].values[last]
     if len(times) < 3 or not np.isfinite(profiles).all():
-        return {"growth_rate": math.nan, "growth_rate_theory": theory}
-    return {
-        "growth_rate": answer.measured_growth(point, run["x"].values, times, profiles),
-        "growth_rate_theory": theory,
-    }
+        why = f"no growth_rate: {len(times)} snapshots before the run's end"
+        return {**none, "growth_rate_theory": theory, "why_growth": why}
+    rate = answer.measured_growth(point, run["x"].values, times, profiles)
+    return {**none, "growth_rate": rate, "growth_rate_theory": theory}
 
 
 def methods(atlas: pd.DataFrame) -> pd.DataFrame:
@@ -227,9 +236,9 @@ def methods(atlas: pd.DataFrame) -> pd.DataFrame:
                 "left the box": int((runs["status"] == "left_domain").sum()),
                 "judged": int(runs["L_f_error"].notna().sum()),
                 **{
-                    f"{name} of {quantity}": f"{measure(runs[column].dropna()):.1%}"
+                    f"{name} of {quantity}": _quantile(runs[column], share)
                     for quantity, column in (("L_f", "L_f_error"), ("max abs eta", "max_abs_eta_error"))
-                    for name, measure in (("median error", np.median), ("9 in 10 within", _ninety))
+                    for name, share in (("median error", 0.5), ("9 in 10 within", 0.9))
                 },
             }
         )
@@ -264,11 +273,13 @@ def read(folder: Path) -> pd.DataFrame:
         raise ConfigError(f"{path}: there is no such file; allowed: the folder of a study with an atlas")
     found = pd.read_csv(path)
     texts = ["status_detail", "reference", "reason"]
-    return found.assign(**{name: found[name].fillna("") for name in texts})
+    return found.assign(**{name: found[name].astype(object).fillna("") for name in texts})
 
 
-def _ninety(values: pd.Series) -> float:
-    return float(np.quantile(values, 0.9)) if len(values) else math.nan
+def _quantile(values: pd.Series, share: float) -> str:
+    """Quantile of the values that are known, in per cent; '' if none is."""
+    values = values.dropna()
+    return f"{values.quantile(share):.1%}" if len(values) else ""
 
 
 def _column(point: Point) -> tuple:

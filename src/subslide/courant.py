@@ -19,10 +19,10 @@ row. Stability need not be monotone: the limit is a stable number above which th
 
 Theory: a step within which the fastest wave crosses at most one cell, Courant number `THEORY`, for first order on a
 line and on a radius; in the plane too, since the step follows the sum of both directions' fastest waves (donor-cell
-condition); for MUSCL-Hancock as well, by linear theory (Toro 2009, section 14.4). That depths stay positive is proven for
-MUSCL-Hancock up to 1/2 alone (Berthon 2006); here what leaves a cell is limited by what it holds. A wave whose speed is
-the same everywhere meets the theoretical limit; in a collapse only a few cells are as fast as the step allows for, and
-it may bear more.
+condition); for MUSCL-Hancock as well, by linear theory (Toro 2009, section 14.4). That depths stay positive is proven
+for MUSCL-Hancock up to 1/2 alone (Berthon 2006); here what leaves a cell is limited by what it holds. A wave whose
+speed is the same everywhere meets the theoretical limit; in a collapse only a few cells are as fast as the step allows
+for, and it may bear more. On a radius the cell at the axis has twice the edge for its size.
 """
 
 import math

@@ -1,7 +1,7 @@
 """Regions of parameters and numerics that the stability atlas found unsafe: a run in one says so once, on stderr.
 
-Each region is earned: tests/study/test_guard.py solves its `example` and shows that it fails, gains energy or misses the
-answer, where the same run with what the region suggests does not. Imports no kernels.
+Each region is earned: tests/study/test_guard.py solves its `example` and shows that it fails, gains energy or misses
+the answer, where the same run with what the region suggests does not. Imports no kernels.
 """
 
 from collections.abc import Callable, Iterable

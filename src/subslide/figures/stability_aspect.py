@@ -14,7 +14,7 @@ def draw(results):
     column = {"a_H": float(Point.a_H), "r": Point.r, "boundary": "open"}
     figure, rows, entries = _atlas.maps(results, TITLE, "delta", "a_2", **column)
     notes = [
-        "The scaled answer depends on tan(δ)/$a_2$ alone. Grains with little friction for their height run further than "
-        "the largest box reaches; without any they never rest. Energy is not watched in open boxes."
+        "The scaled answer depends on tan(δ)/$a_2$ alone. Grains with little friction for their height run further "
+        "than the largest box reaches; without any they never rest. Energy is not watched in open boxes."
     ]
     return _style.finish(figure, TITLE, _atlas.about(rows, ("a_H", "r")), notes, more=entries)

@@ -43,9 +43,9 @@ def draw(results):
         (Line2D([], [], color="#b40426", linewidth=1.0, linestyle="--"), "default"),
     ]
     notes = [
-        "Found by bisection without friction between walls; a run counts as stable if volumes hold, its energy and total "
-        "variation do not grow and it stays near the resolved run (docs/tables.md). In a collapse few cells are as fast "
-        "as the step allows for, so it bears more than a wave. 'none': energy rises at any Courant number."
+        "Found by bisection without friction between walls; a run counts as stable if volumes hold, its energy and "
+        "total variation do not grow and it stays near the resolved run (docs/tables.md). In a collapse few cells are "
+        "as fast as the step allows for, so it bears more than a wave. 'none': energy rises at any Courant number."
     ]
     tried = f"{len(results.cfl)} runs"
     return _style.finish(figure, TITLE, tried, notes, entries, 4)

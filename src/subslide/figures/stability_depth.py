@@ -14,7 +14,7 @@ def draw(results):
     column = {"a_2": Point.a_2, "delta": Point.delta, "boundary": "wall"}
     figure, rows, entries = _atlas.maps(results, TITLE, "r", "a_H", **column)
     notes = [
-        "Error: against the default scheme on the finest grid, where its two finest grids agree. With little water over "
-        "the column a few runs fail wherever grains at rest hold a step under it; which ones is a matter of chance."
+        "Error: against the default scheme on the finest grid, where its two finest grids agree. With little water "
+        "over the column a few runs fail wherever grains at rest hold a step under it; which ones is chance."
     ]
     return _style.finish(figure, TITLE, _atlas.about(rows, ("a_2", "delta")), notes, more=entries)

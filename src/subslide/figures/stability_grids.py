@@ -25,6 +25,8 @@ def draw(results):
     for key, value in {**usual, "scene": "cylinder", "model": "radial", "scheme": Point.scheme}.items():
         rows = rows[rows[key] == value]
     columns = rows[rows["dtype"] == "float32"][["a_H", "r", "boundary", "a_2", "delta"]].drop_duplicates()
+    if columns.empty:
+        raise _style.NoRunsError("dtype: float32")
     columns = columns.sort_values(["r", "a_H"])
     figure, axes = _style.panels(len(columns), COLUMNS, 1.9, sharex=True, sharey=True)
     for k, (ax, column) in enumerate(zip(axes, columns.to_dict("records"), strict=True)):

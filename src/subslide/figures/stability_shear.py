@@ -69,11 +69,12 @@ def draw(results):
         if (rows["treatment"] == name).any()
     ]
     row = rows.iloc[0]
-    about = f"{_words.equation('a_H', row['a_H'])}, one wave in {row['cells']} cells, amplitude 1e-5 $H_2$ at the start"
+    layers = _words.equation("a_H", row["a_H"])
+    about = f"{layers}, one wave in {row['cells']} cells, amplitude 1e-5 $H_2$ at the start"
     notes = [
-        "Rates from the wave's Fourier coefficient over the run; below 0 the scheme damps a wave that theory keeps. Runs "
-        "that treatment stop ends have no rate and are drawn at 0; interlayer friction that damps faster than the axis "
-        "shows is drawn at its end. Beyond a second limit the speeds are real again: no growth."
+        "Rates from the wave's Fourier coefficient over the run; below 0 the scheme damps a wave that theory keeps. "
+        "Runs that treatment stop ends have no rate and are drawn at 0; interlayer friction that damps faster than the "
+        "axis shows is drawn at its end. Beyond a second limit the speeds are real again: no growth."
     ]
     return _style.finish(figure, TITLE, about, notes, entries, 5)
 
