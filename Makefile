@@ -47,7 +47,7 @@ verify: $(READY)  ## run the study of exact solutions and hold the required orde
 .PHONY: atlas
 atlas: $(READY)  ## where methods fail: thousands of runs, maps of errors and statuses, largest stable Courant numbers
 	@$(BIN)/snakemake --configfile config/stability.yaml --cores "$$CORES"
-	@$(BIN)/subslide atlas results/stability
+	@cat results/stability/logs/atlas.log
 
 setup: $(READY)  ## set up alone: .venv with the locked packages and this one
 

@@ -29,6 +29,8 @@ FILM = 0.1
 """Depth of water over the column, over its height, below which a step of grains at rest may drive it."""
 HELD = (0.6, 3.0)
 """Range of tan(delta)/a_2 in which some of the column stays at rest with a steep edge."""
+LEAST_FRICTION = 0.075
+"""tan(delta)/a_2 below which grains run further than the largest box reaches."""
 LARGEST_CFL = 1.0
 
 
@@ -43,8 +45,8 @@ def _under_film(point: Point) -> bool:
     )
 
 
-def _endless(point: Point) -> bool:
-    return point.t_end is None and point.friction == "coulomb" and point.delta == 0
+def _far(point: Point) -> bool:
+    return point.t_end is None and point.friction == "coulomb" and friction_number(point) < LEAST_FRICTION
 
 
 def _standing_jump(point: Point) -> bool:
@@ -61,8 +63,8 @@ REGIONS = (
     Region(
         "film of water",
         _under_film,
-        f"below a_H = {FILM:g}, with tan(delta)/a_2 from {HELD[0]:g} to {HELD[1]:g}, many runs gain energy or end as"
-        " step_collapse: grains at rest hold a step that drives the film of water over it",
+        f"below a_H = {FILM:g}, with tan(delta)/a_2 from {HELD[0]:g} to {HELD[1]:g}, up to half of the runs gain energy"
+        " or end as step_collapse: grains at rest hold a step that drives the film of water over it",
         f"a_H of {FILM:g} or more; or r: 0 with quantities: grains, which leaves the water out",
         {"a_H": 0.0215, "delta": 40, "cells": 100, "boundary": "wall"},
         {"a_H": 0.2},
@@ -78,10 +80,11 @@ REGIONS = (
         "stability, table of Courant numbers",
     ),
     Region(
-        "no friction",
-        _endless,
-        "grains without friction never rest: the run ends when they leave the largest box, or at the cap in time",
-        "a number for t_end, or delta above 0",
+        "little friction",
+        _far,
+        f"with tan(delta)/a_2 below {LEAST_FRICTION:g} grains run further than the largest box reaches, and without"
+        " friction they never rest: the run ends as left_domain, or at the cap in time",
+        "a number for t_end, more friction or a lower column",
         {"delta": 0, "cells": 40},
         {"t_end": 0.2},
         "stability, map of a_2 by delta",

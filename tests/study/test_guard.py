@@ -37,7 +37,7 @@ def off(run):
 HARM = {
     "film of water": lambda run: run.status == "step_collapse" or gain(run) > 5,
     "Courant number": lambda run: run.status != "ok" or gain(run) > GAINED,
-    "no friction": lambda run: run.status in ("left_domain", "not_at_rest"),
+    "little friction": lambda run: run.status in ("left_domain", "not_at_rest"),
     "printed friction": lambda run: run.status == "not_at_rest",
     "creeping": lambda run: np.abs(run.h2[-1] - run.h2[0]).max() > 1e-3 * run.h2.max(),
     "standing jump": lambda run: jump(run) > 0.2,
@@ -64,6 +64,13 @@ def test_a_film_of_water_often_fails_and_deeper_water_never():
         harm[region.holds(point)].append(HARM[region.name](solve(point)))
     assert np.mean(harm[True]) > 0.2
     assert not any(harm[False])
+
+
+def test_grains_with_little_friction_leave_the_largest_box():
+    for a_2, delta, held in ((10.0, 30.0, True), (4.64, 15.0, True), (0.56, 5.0, False)):
+        point = Point(a_2=a_2, delta=delta, cells=60)
+        assert REGIONS["little friction"].holds(point) == held
+        assert (solve(point).status == "left_domain") == held
 
 
 def test_every_region_is_tested_and_says_what_to_choose():

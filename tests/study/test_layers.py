@@ -37,6 +37,7 @@ LIGHT = (
     "jobs",
     "layout",
     "records",
+    "thinning",
 )
 FORBIDDEN = {
     "fields": SOLVING | STUDY | HEAVY | {"points", "schema"},
@@ -52,6 +53,9 @@ FORBIDDEN = {
     "convergence": SOLVING | STUDY | HEAVY | {"points", "schema"},
     "tables": SOLVING,
     "errors": SOLVING,
+    "atlas": SOLVING,
+    "energy": HEAVY | {"solver"},
+    "guard": SOLVING | HEAVY,
     "verification": SOLVING,
     "ledger": SOLVING | HEAVY,
     **{name: HEAVY for name in LIGHT},

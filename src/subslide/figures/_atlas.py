@@ -49,8 +49,7 @@ def maps(results, title, across, up, **values):
     own = rows[rows["cells"] == rows.groupby("cells")["scheme"].nunique().idxmax()]
     axes_values = [dense(own, key, other) for key, other in ((across, up), (up, across))]
     own = own[own[across].isin(axes_values[0]) & own[up].isin(axes_values[1])]
-    finer = rows[(rows["cells"] > own["cells"].max()) & rows["id"].isin(own["reference"])]
-    fine = finer[finer["cells"] == finer["cells"].mode().max()] if len(finer) else finer
+    fine = rows[rows["id"].isin(own["reference"])]
     schemes, orders = list(dict.fromkeys(own["scheme"])), sorted(own["order"].unique())
     figure, axes = _style.panels(len(schemes) * len(orders), len(schemes), 1.75, sharex=True, sharey=True)
     look = mpl.colormaps["YlGnBu"].with_extremes(bad="0.86")

@@ -103,7 +103,7 @@ def film(ax, results):
     ax.plot(data["x"] / row["radius"], data["h2"] / height, **START)
     ax.plot(data["x"] / row["radius"], 1 + row["a_H"] + data["eta"] / height, **WRONG)
     labels(ax, "$x/R$", "$h_2/H_2$ and surface$/H_2$")
-    return f"the last state of {column(row)}:\n{row['status']}, the film's water runs away"
+    return f"{row['status']}: the film's water runs away\n({column(row)})"
 
 
 def quiet(ax, results):
@@ -117,7 +117,7 @@ def quiet(ax, results):
     fine = results.atlas[results.atlas["id"] == row["reference"]]
     if len(fine):
         energy(ax, results, fine.iloc[0], RIGHT)
-    return f"status ok, yet energy rose: {column(row)}\n(blue: finest grid)"
+    return f"status {row['status']}, yet energy rose (blue: finest grid)\n({column(row)})"
 
 
 def usual(results):
