@@ -223,7 +223,8 @@ def methods(atlas: pd.DataFrame) -> pd.DataFrame:
     chosen = atlas[(atlas["scene"] == "cylinder") & (atlas["model"] == "radial") & (atlas["t_end"] == "rest")]
     for key, value in usual.items():
         chosen = chosen[chosen[key] == value]
-    everywhere = chosen.groupby("cells")["scheme"].transform("nunique") == chosen["scheme"].nunique()
+    column = ["cells", "a_H", "a_2", "r", "delta", "boundary"]
+    everywhere = chosen.groupby(column)["scheme"].transform("nunique") == chosen["scheme"].nunique()
     rows = []
     for (scheme, order), runs in chosen[everywhere].groupby(["scheme", "order"], sort=False):
         ended = runs["status"].isin(FINISHED)

@@ -31,6 +31,8 @@ HELD = (0.6, 3.0)
 """Range of tan(delta)/a_2 in which some of the column stays at rest with a steep edge."""
 LEAST_FRICTION = 0.075
 """tan(delta)/a_2 below which grains run further than the largest box reaches."""
+FLOATING = 0.99
+"""Density ratio above which waves between the layers are so slow and lasting that errors pile up."""
 LARGEST_CFL = 1.0
 
 
@@ -49,6 +51,10 @@ def _far(point: Point) -> bool:
     return point.t_end is None and point.friction == "coulomb" and friction_number(point) < LEAST_FRICTION
 
 
+def _floating(point: Point) -> bool:
+    return point.r > FLOATING and point.model != "one-layer" and point.scheme in ("ifcph", "ifcp", "roe")
+
+
 def _standing_jump(point: Point) -> bool:
     dry = dict(point.scene_options).get("downstream", 0.0) == 0
     return point.scene == "dam_break" and dry and point.order == 1 and point.scheme in ("ifcp", "roe")
@@ -64,7 +70,8 @@ REGIONS = (
         "film of water",
         _under_film,
         f"below a_H = {FILM:g}, with tan(delta)/a_2 from {HELD[0]:g} to {HELD[1]:g}, up to half of the runs gain energy"
-        " or end as step_collapse: grains at rest hold a step that drives the film of water over it",
+        " or end as step_collapse: the film drains over the edge of grains at rest, and where it runs dry its"
+        " speed grows without bound",
         f"a_H of {FILM:g} or more; or r: 0 with quantities: grains, which leaves the water out",
         {"a_H": 0.0215, "delta": 40, "cells": 100, "boundary": "wall"},
         {"a_H": 0.2},
@@ -88,6 +95,16 @@ REGIONS = (
         {"delta": 0, "cells": 40},
         {"t_end": 0.2},
         "stability, map of a_2 by delta",
+    ),
+    Region(
+        "floating grains",
+        _floating,
+        f"above r = {FLOATING:g} waves between the layers swing for long, and solvers that resolve them gain energy from"
+        " them, the more the less friction there is; some runs end as step_collapse",
+        "scheme: hll or rusanov, or a t_end before the waves come back from the box's ends",
+        {"r": 0.999, "a_2": 1, "delta": 5.71, "boundary": "wall", "cells": 100},
+        {"scheme": "hll"},
+        "stability, grains that nearly float",
     ),
     Region(
         "printed friction",

@@ -38,6 +38,7 @@ HARM = {
     "film of water": lambda run: run.status == "step_collapse" or gain(run) > 5,
     "Courant number": lambda run: run.status != "ok" or gain(run) > GAINED,
     "little friction": lambda run: run.status in ("left_domain", "not_at_rest"),
+    "floating grains": lambda run: gain(run) > GAINED,
     "printed friction": lambda run: run.status == "not_at_rest",
     "creeping": lambda run: np.abs(run.h2[-1] - run.h2[0]).max() > 1e-3 * run.h2.max(),
     "standing jump": lambda run: jump(run) > 0.2,

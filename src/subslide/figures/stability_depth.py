@@ -15,6 +15,6 @@ def draw(results):
     figure, rows, entries = _atlas.maps(results, TITLE, "r", "a_H", **column)
     notes = [
         "Error: against the default scheme on the finest grid, where its two finest grids agree. With little water "
-        "over the column a few runs fail wherever grains at rest hold a step under it; which ones is chance."
+        "over the column runs fail where it drains over the edge of grains at rest; which ones is chance."
     ]
     return _style.finish(figure, TITLE, _atlas.about(rows, ("a_2", "delta")), notes, more=entries)
