@@ -184,11 +184,12 @@ def verify(results, output):
 def atlas(results, output):
     """Write the stability atlas of a study and print how each method did; RESULTS is the study's folder."""
     from subslide import atlas as atlas_of
+    from subslide import methods
 
     click.echo(str(atlas_of.write(Path(results))))
-    click.echo(atlas_of.report(Path(results)))
+    click.echo(methods.report(Path(results)))
     if output:
-        atlas_of.renew(Path(output), Path(results))
+        methods.renew(Path(output), Path(results))
 
 
 @cli.command()

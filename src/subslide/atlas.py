@@ -21,7 +21,6 @@ from subslide.atomic import write_text
 from subslide.points import RUN_KEYS, Point, from_dict, options_text
 from subslide.results import Results, trimmed
 from subslide.schema import ConfigError
-from subslide.verification import END, START
 
 FINER = 2
 AGREES_L_F, AGREES_ETA = 0.05, 0.25
@@ -216,57 +215,6 @@ def growth(point: Point, run: xr.Dataset) -> dict:
     return {**none, "growth_rate": rate, "growth_rate_theory": theory}
 
 
-def methods(atlas: pd.DataFrame) -> pd.DataFrame:
-    """Table of how each scheme and order did on the columns that the atlas solves by all of them: runs, how many failed
-    or gained energy, and errors."""
-    usual = {key: getattr(Point(), key) for key in VARIANTS}
-    chosen = atlas[(atlas["scene"] == "cylinder") & (atlas["model"] == "radial") & (atlas["t_end"] == "rest")]
-    for key, value in usual.items():
-        chosen = chosen[chosen[key] == value]
-    column = ["cells", "a_H", "a_2", "r", "delta", "boundary"]
-    everywhere = chosen.groupby(column)["scheme"].transform("nunique") == chosen["scheme"].nunique()
-    rows = []
-    for (scheme, order), runs in chosen[everywhere].groupby(["scheme", "order"], sort=False):
-        ended = runs["status"].isin(FINISHED)
-        rows.append(
-            {
-                "method": f"{scheme.upper()}, order {order}",
-                "runs": len(runs),
-                "failed": int((~ended & (runs["status"] != "left_domain")).sum()),
-                "gained energy": int((ended & (runs["energy_rise"] > GAINED)).sum()),
-                "left the box": int((runs["status"] == "left_domain").sum()),
-                "judged": int(runs["L_f_error"].notna().sum()),
-                **{
-                    f"{name} of {quantity}": _quantile(runs[column], share)
-                    for quantity, column in (("L_f", "L_f_error"), ("max abs eta", "max_abs_eta_error"))
-                    for name, share in (("median error", 0.5), ("9 in 10 within", 0.9))
-                },
-            }
-        )
-    return pd.DataFrame(rows)
-
-
-def report(folder: Path) -> str:
-    """Text: how many runs ended in each status, and the table of methods, of a study with an atlas."""
-    atlas = read(folder)
-    counts = ", ".join(f"{status}: {count}" for status, count in atlas["status"].value_counts().items())
-    return f"{len(atlas)} runs; {counts}\n\n{methods(atlas).to_string(index=False)}"
-
-
-def renew(page: Path, folder: Path) -> None:
-    """Nothing; the page of documentation holds the table of methods of a study between its two marks."""
-    text = page.read_text(encoding="utf-8")
-    if START not in text or END not in text:
-        raise ConfigError(
-            f"--output: {page} lacks the lines '{START}' and '{END}' that its table goes between"
-        )
-    found = methods(read(folder))
-    rows = [list(found.columns), ["---"] * len(found.columns), *found.astype(str).to_numpy().tolist()]
-    lines = "\n".join("| " + " | ".join(row) + " |" for row in rows)
-    before, rest = text.split(START, 1)
-    write_text(page, f"{before}{START}\n\n{lines}\n\n{END}{rest.split(END, 1)[1]}")
-
-
 def read(folder: Path) -> pd.DataFrame:
     """Atlas of a study's folder, in which empty texts are ''."""
     path = folder / "tables/atlas.csv"
@@ -275,12 +223,6 @@ def read(folder: Path) -> pd.DataFrame:
     found = pd.read_csv(path)
     texts = ["status_detail", "reference", "reason"]
     return found.assign(**{name: found[name].astype(object).fillna("") for name in texts})
-
-
-def _quantile(values: pd.Series, share: float) -> str:
-    """Quantile of the values that are known, in per cent; '' if none is."""
-    values = values.dropna()
-    return f"{values.quantile(share):.1%}" if len(values) else ""
 
 
 def _column(point: Point) -> tuple:

@@ -133,7 +133,7 @@ def test_the_wave_of_the_scene_shear_has_its_growth_rate(folder):
 
 
 def test_methods_are_counted_and_the_page_gets_their_table(folder, tmp_path, capsys):
-    folder(
+    rows = folder(
         lambda point: {"status": "step_collapse", **length(np.nan)} if point.scheme == "hll" else {},
         cases=[
             {"scheme": ["ifcph", "hll"], "cells": 20, "r": [0.2, 0.4]},
@@ -143,7 +143,13 @@ def test_methods_are_counted_and_the_page_gets_their_table(folder, tmp_path, cap
     page = tmp_path / "page.md"
     page.write_text(f"before\n{START}\nold\n{END}\nafter\n")
     assert main(["atlas", str(tmp_path), "-o", str(page)]) == 0
-    assert "8 runs; ok: 6, step_collapse: 2" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "8 runs; ok: 6, step_collapse: 2" in said
+    failed = rows[rows["status"] == "step_collapse"]["id"]
+    assert (
+        f"2 runs failed or gained energy outside every region that guard.py cautions of: {' '.join(failed)}"
+        in said
+    )
     text = page.read_text()
     assert "| HLL, order 2 | 2 | 2 | 0 | 0 | 0 |" in text
     assert "| IFCPH, order 2 | 2 | 0 | 0 | 0 | 2 | 0.0% |" in text

@@ -39,7 +39,7 @@ HARM = {
     "Courant number": lambda run: run.status != "ok" or gain(run) > GAINED,
     "little friction": lambda run: run.status in ("left_domain", "not_at_rest"),
     "floating grains": lambda run: gain(run) > GAINED,
-    "printed friction": lambda run: run.status == "not_at_rest",
+    "printed formula": lambda run: run.status == "not_at_rest",
     "creeping": lambda run: np.abs(run.h2[-1] - run.h2[0]).max() > 1e-3 * run.h2.max(),
     "standing jump": lambda run: jump(run) > 0.2,
     "sliding layers": lambda run: np.ptp(run.h2[-1]) > 0.05 * run.h2.mean(),
@@ -60,7 +60,9 @@ def test_a_region_is_earned_and_its_advice_mends(name):
 def test_a_film_of_water_often_fails_and_deeper_water_never():
     region = REGIONS["film of water"]
     harm = {True: [], False: []}
-    for a_H, delta, r, order in itertools.product((0.0215, 0.04, 0.2, 0.3), (32, 36, 40), (0.2, 0.4), (1, 2)):
+    for a_H, delta, r, order in itertools.product(
+        (0.0215, 0.04, 0.25, 0.5), (32, 36, 40), (0.2, 0.4), (1, 2)
+    ):
         point = config.make_point({**region.example, "a_H": a_H, "delta": delta, "r": r, "order": order})
         harm[region.holds(point)].append(HARM[region.name](solve(point)))
     assert np.mean(harm[True]) > 0.2
@@ -82,6 +84,12 @@ def test_every_region_is_tested_and_says_what_to_choose():
         ]
         assert region.reason in line
         assert f"Choose {region.advice}" in line
+
+
+def test_every_region_was_seen_in_a_study(root):
+    for region in guard.REGIONS:
+        study = config.read_study(root / "config" / f"{region.seen.split(',')[0]}.yaml")
+        assert any(map(region.holds, study.points)), region.name
 
 
 def test_the_default_and_the_papers_range_are_in_no_region():

@@ -54,6 +54,7 @@ FORBIDDEN = {
     "tables": SOLVING,
     "errors": SOLVING,
     "atlas": SOLVING,
+    "methods": SOLVING,
     "energy": HEAVY | {"solver"},
     "guard": SOLVING | HEAVY,
     "verification": SOLVING,

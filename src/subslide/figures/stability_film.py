@@ -14,7 +14,7 @@ def draw(results):
     column = {"a_2": Point.a_2, "r": Point.r, "boundary": "wall"}
     figure, rows, entries = _atlas.maps(results, TITLE, "delta", "a_H", **column)
     notes = [
-        "At $a_H$ = 0 the column touches the surface. Where friction holds a part of the column's flat top, the "
-        "film drains over its edge, and a cell that runs dry beside deeper water can be driven faster and faster."
+        "At $a_H$ = 0 the column touches the surface. Where friction holds a part of the flat top, the film drains "
+        "over its edge, and a cell that runs dry beside deeper water can be driven faster and faster."
     ]
     return _style.finish(figure, TITLE, _atlas.about(rows, ("a_2", "r")), notes, more=entries)
