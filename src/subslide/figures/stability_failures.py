@@ -31,9 +31,9 @@ def draw(results):
            "non-negative, and a run that blows up ends as step_collapse before its values overflow." if never else "")
     ]  # fmt: skip
     entries = [
-        (Line2D([], [], **START), "start, or what is right"),
-        (Line2D([], [], **RIGHT), "default"),
-        (Line2D([], [], **WRONG), "as the panel says"),
+        (Line2D([], [], **START), "start in (a), grains in (e)"),
+        (Line2D([], [], **RIGHT), "as it should be"),
+        (Line2D([], [], **WRONG), "what went wrong"),
     ]
     return _style.finish(figure, TITLE, "real runs of this study", notes, entries, 3)
 
@@ -122,7 +122,7 @@ def quiet(ax, results):
 
 def usual(results):
     """Return the rows of collapses behind walls with the default scheme on the grid of the maps."""
-    rows = _atlas.chosen(results, scheme=Point.scheme, boundary="wall")
+    rows = _atlas.chosen(results, scheme=Point.scheme, boundary="wall", a_2=Point.a_2)
     return rows[rows["cells"] == rows["cells"].mode().iloc[0]]
 
 
