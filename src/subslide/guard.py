@@ -57,13 +57,20 @@ def _floating(point: Point) -> bool:
 
 
 def _standing_jump(point: Point) -> bool:
-    dry = dict(point.scene_options).get("downstream", 0.0) == 0
-    return point.scene == "dam_break" and dry and point.order == 1 and point.scheme in ("ifcp", "roe")
+    if point.scene != "dam_break" or point.order != 1 or point.scheme not in ("ifcp", "roe"):
+        return False
+    return _option(point, "downstream") == 0
 
 
 def _sliding(point: Point) -> bool:
-    shear = dict(point.scene_options).get("shear", 1.2)
-    return point.scene == "shear" and shear > 1 and point.treatment in ("real", "hll")
+    return point.scene == "shear" and point.treatment in ("real", "hll") and _option(point, "shear") > 1
+
+
+def _option(point: Point, name: str):
+    """Option of a point's scene, or the default of its exact solution."""
+    from subslide import exact
+
+    return {**exact.load(point.scene).DEFAULTS, **dict(point.scene_options)}[name]
 
 
 REGIONS = (

@@ -189,3 +189,12 @@ def test_studies_are_not_merged(project):
     assert set(project.runs()["delta"]) == {32}
     assert project.runs()["numerics"].tolist() == ["default", "default"]
     assert project.runs()["cells"].tolist() == [20, 20]
+
+
+def test_the_atlas_and_its_search_run_in_the_study_of_stability_alone(project):
+    assert "atlas" not in project.jobs("-n", "--forceall")
+    project.configure((project.root / "config/stability.yaml").read_text())
+    jobs = project.jobs("-n")
+    assert jobs["atlas"] == jobs["cfl"] == jobs["tables"] == jobs["errors"] == 1
+    assert jobs["batch"] > 10
+    assert sum(name.startswith("figure_stability_") for name in jobs) == 7
