@@ -25,7 +25,11 @@ test: $(READY)  ## set up, then lint, format and every test
 	$(BIN)/ruff format --check .
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(BIN)/subslide warm radial:float64 one-layer:float64 quarter:float64 plane:float64 radial:float64:general
-	$(BIN)/python -m pytest -n auto --dist loadgroup
+	$(BIN)/python -m pytest -n auto --dist loadgroup $(PYTEST_OPTIONS)
+
+.PHONY: test-all
+test-all: $(READY)  ## every test and the long lanes: thousands of random points
+	@$(MAKE) --no-print-directory test PYTEST_OPTIONS=--long
 
 .PHONY: bench
 bench: $(READY)  ## measure speed beside a C reference, cost growth, start-up; tables and figures in results/bench
@@ -39,6 +43,11 @@ bench-peers: $(READY)  ## run GeoClaw and PyClaw beside subslide (builds them on
 verify: $(READY)  ## exact solutions, and error against seconds of all numerics; hold the required orders (15 minutes on 2 cores)
 	@$(BIN)/snakemake --configfile config/accuracy.yaml --cores "$$CORES"
 	@$(BIN)/subslide verify results/accuracy
+
+.PHONY: atlas
+atlas: $(READY)  ## where methods fail: thousands of runs, maps of errors and statuses, largest stable Courant numbers
+	@$(BIN)/snakemake --configfile config/stability.yaml --cores "$$CORES"
+	@cat results/stability/logs/atlas.log
 
 setup: $(READY)  ## set up alone: .venv with the locked packages and this one
 

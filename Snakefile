@@ -24,6 +24,7 @@ PLAN = ledger.plan(STUDY, RESULTS, extend=workflow.is_main_process)
 
 include: "workflow/rules/solve.smk"
 include: "workflow/rules/tables.smk"
+include: "workflow/rules/atlas.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/report.smk"
 

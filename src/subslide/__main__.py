@@ -78,14 +78,23 @@ def run(config, threads, output, **options):
     options = {key: value for key, value in options.items() if value is not None}
     point = jobs.point_of(config, options)
     jobs.check_output(output, inputs=[config] if config else [])
+    caution([point])
     jobs.set_threads(threads)
     click.echo(jobs.run(point, threads, output))
+
+
+def caution(points) -> None:
+    """Nothing; stderr says once of each unsafe region that any of the points lies in it."""
+    from subslide import guard
+
+    for line in guard.cautions(points):
+        click.echo(f"subslide: {line}", err=True)
 
 
 @cli.command()
 @click.argument("config", nargs=-1, required=True)
 def check(config):
-    """Check study files, CONFIG..., and print one line for each."""
+    """Check study files, CONFIG..., and print one line for each, with cautions where runs lie in unsafe regions."""
     from subslide.config import read_study
 
     for path in config:
@@ -94,6 +103,7 @@ def check(config):
         click.echo(
             f"{path}: study '{study.name}', {len(study.runs)} runs{more}, {len(study.figures)} figures"
         )
+        caution(study.points)
 
 
 @cli.command()
@@ -181,6 +191,33 @@ def work_precision(results, output):
     click.echo("\n".join([text, "", *map(str, paths)]))
     for page in output:
         _renew(page, lambda words: chart.page(words, Path(results)))
+
+
+@cli.command()
+@click.argument("results")
+@click.option("-o", "--output", metavar="FILE.md", help="page whose table of the last run is written anew")
+def atlas(results, output):
+    """Write the stability atlas of a study and print how each method did; RESULTS is the study's folder."""
+    from subslide import atlas as atlas_of
+    from subslide import methods
+
+    click.echo(str(atlas_of.write(Path(results))))
+    click.echo(methods.report(Path(results)))
+    if output:
+        methods.renew(Path(output), Path(results))
+
+
+@cli.command()
+@click.argument("results")
+def cfl(results):
+    """Find the largest stable Courant number of each scheme, order and model, for a study's table of them.
+
+    RESULTS is the study's folder, such as results/stability.
+    """
+    from subslide import courant, jobs
+
+    jobs.set_threads(1)
+    click.echo(str(courant.write(Path(results))))
 
 
 @cli.command()

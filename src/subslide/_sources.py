@@ -8,7 +8,7 @@ PACKAGE = Path(__file__).resolve().parent
 SOLVER = ("kernels", "models", "scenes", "exact", "diagnostics", "solver.py", "fields.py")
 """Parts whose code is compiled, or decides which code is."""
 
-DRAWING = ("figures", "drawing.py", "docs.py", "claims", "laboratory.py", "work_precision")
+DRAWING = ("figures", "drawing.py", "docs.py", "claims", "laboratory.py", "guard.py", "work_precision")
 """Parts that only draw, judge or describe what is solved: a change here never changes a record or a table."""
 
 

@@ -1,6 +1,18 @@
 """Pages of documentation that follow from the code, so that each fact has one place."""
 
-from subslide import bands, claims, convergence, errors, fields, scenes, schema, tables
+from subslide import (
+    atlas,
+    bands,
+    claims,
+    convergence,
+    courant,
+    errors,
+    fields,
+    scenes,
+    schema,
+    tables,
+    thinning,
+)
 from subslide.work_precision import cheapest
 from subslide.work_precision import table as work_precision
 
@@ -190,7 +202,8 @@ def columns() -> str:
             _section("timing.csv", "One row a run.", tables.TIMING),
             _section(
                 "series.csv",
-                f"Columns `id`, `time` (s), `quantity`, `value`: one row a sample, and a sample each time step. Above"
+                f"Columns `id`, `time` (s), `quantity`, `value`: one row a sample, and a sample each time step (of runs"
+                f" of more than {thinning.LONGEST} steps those that keep every extreme; see docs/records.md). Above"
                 f" {tables.MOST_RUNS_IN_CSV} runs it is `series.parquet` instead. Quantities:",
                 quantities,
             ),
@@ -199,6 +212,8 @@ def columns() -> str:
             _section("errors.csv", _errors_text(), errors.COLUMNS),
             _section("work_precision.csv", _work_precision_text(), work_precision.COLUMNS),
             _section("cheapest.csv", _cheapest_text(), cheapest.COLUMNS),
+            _section("atlas.csv", _paragraphs(atlas), atlas.COLUMNS),
+            _section("cfl.csv", _paragraphs(courant), courant.COLUMNS),
         )
     )
 
@@ -275,6 +290,17 @@ def _cheapest_text() -> str:
     targets = ", ".join(f"{100 * target:g}" for target in cheapest.TARGETS)
     return f"""One row for each column, quantity, error that is asked for ({targets} %) and choice, of the runs in
 work_precision.csv: the cheapest run whose `sure_error` is no larger. No value is interpolated between runs."""
+
+
+def _paragraphs(module) -> str:
+    """Docstring of a module whose table is in studies with figures of stability, names of its constants with values."""
+    names = {
+        f"`{name}`": f"{value}" for name, value in vars(module).items() if isinstance(value, int | float)
+    }
+    text = module.__doc__.strip()
+    for name, value in names.items():
+        text = text.replace(name, value)
+    return f"In studies with figures of stability.\n\n{text}"
 
 
 def _section(title: str, text: str, rows: dict[str, tuple[str, str]]) -> str:

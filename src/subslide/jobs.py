@@ -65,12 +65,12 @@ def run(point: Point, threads: int, output: str) -> str:
 
 def batch(spec: str, threads: int, output: str) -> Iterator[str]:
     """Lines, one as each run of a batch file ends; then its record is at `output`, its SHA-256 in `output`.sha256."""
-    from subslide import records, solver
+    from subslide import records, solver, thinning
 
     points = read_batch(spec)
     results = []
     for point in points:
-        results.append(solver.solve(point, threads=threads))
+        results.append(thinning.thinned(solver.solve(point, threads=threads)))
         yield summary(results[-1])
     Path(output + ".sha256").unlink(missing_ok=True)
     records.write(output, results)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 import subslide
-from subslide import fields, points, schema
+from subslide import fields, points, schema, thinning
 from subslide.models.choice import model_reason
 
 
@@ -37,9 +37,10 @@ PROVENANCE = (
 def variables(runs: list) -> dict[str, Variable]:
     """Variables of a record by name. runs: results of `solver.solve` that share one cell size.
 
-    Shorter runs are padded with NaN; `steps` tells how many samples after the first one a run has. Profiles
-    lie on the union of the runs' grids, which match because cell centres are whole steps from (i + 1/2) dx.
+    Shorter runs are padded with NaN, very long ones thinned. Profiles lie on the union of the runs' grids, which match
+    because cell centres are whole steps from (i + 1/2) dx.
     """
+    runs = [thinning.thinned(run) for run in runs]
     first, x = _shared_grid(runs)
     found = {
         "front_threshold": _variable("front_threshold", np.array(fields.FRONT_THRESHOLDS)),
@@ -90,7 +91,8 @@ def attributes(runs: list, found: dict[str, Variable]) -> dict:
         "source": f"subslide {subslide.__version__}, two-layer Savage-Hutter model with Coulomb friction",
         "history": f"written by subslide {subslide.__version__} (sources {subslide.source_hash()})",
         "comment": "time is elapsed time since release; sample 0 is the start, then one sample each time step, none"
-        " left out; runs with fewer samples end in NaN",
+        f" left out of runs of up to {thinning.LONGEST} samples; longer ones keep the first {thinning.HEAD} and then"
+        " the extremes of every series in each of many blocks of steps; runs with fewer samples end in NaN",
         "version": subslide.__version__,
         "source_hash": subslide.source_hash(),
         "python_version": platform.python_version(),

@@ -67,6 +67,16 @@ class Results:
         path = self.folder / "tables" / "work_precision.csv"
         return pd.read_csv(path) if path.exists() else pd.DataFrame()
 
+    @functools.cached_property
+    def atlas(self) -> pd.DataFrame:
+        """Stability atlas (tables/atlas.csv), one row a run, of a study that draws it."""
+        return pd.read_csv(self.folder / "tables" / "atlas.csv", keep_default_na=False, na_values=[""])
+
+    @functools.cached_property
+    def cfl(self) -> pd.DataFrame:
+        """Courant numbers tried (tables/cfl.csv), of a study that draws the atlas."""
+        return pd.read_csv(self.folder / "tables" / "cfl.csv")
+
     def select(self, **values) -> pd.DataFrame:
         """Rows of the table of runs whose columns equal the given values; numbers to nine digits."""
         chosen = np.ones(len(self.runs), bool)
@@ -102,7 +112,7 @@ def trimmed(data: xr.Dataset, name: str) -> xr.Dataset:
     """The run called `name` of a record, without the padding that other runs of its batch need."""
     place = int(np.flatnonzero(data["id"].values == name)[0])
     one = data.isel(run=place)
-    one = one.isel(step=slice(int(one["steps"]) + 1))
+    one = one.isel(step=slice(int(np.isfinite(one["time"].values).sum())))
     if "x" in one.dims:
         snapshots = int(np.isfinite(one["snapshot_time"].values).sum())
         inside = np.isfinite(one["h2"].isel(snapshot=0).values)

@@ -40,6 +40,7 @@ LIGHT = (
     "records",
     "work_precision/__init__",
     "work_precision/problems",
+    "thinning",
 )
 FORBIDDEN = {
     "fields": SOLVING | STUDY | HEAVY | {"points", "schema"},
@@ -55,6 +56,10 @@ FORBIDDEN = {
     "convergence": SOLVING | STUDY | HEAVY | {"points", "schema"},
     "tables": SOLVING,
     "errors": SOLVING,
+    "atlas": SOLVING,
+    "methods": SOLVING,
+    "energy": HEAVY | {"solver"},
+    "guard": SOLVING | HEAVY,
     "verification": SOLVING,
     "work_precision": SOLVING,
     "ledger": SOLVING | HEAVY,

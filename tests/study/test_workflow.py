@@ -204,3 +204,12 @@ def test_a_sweep_of_numerics_is_charted_and_other_studies_are_not(project):
     assert (project.results / "tables/cheapest.csv").exists()
     project.configure(STUDY)
     assert "work_precision" not in project.jobs("-n")
+
+
+def test_the_atlas_and_its_search_run_in_the_study_of_stability_alone(project):
+    assert "atlas" not in project.jobs("-n", "--forceall")
+    project.configure((project.root / "config/stability.yaml").read_text())
+    jobs = project.jobs("-n")
+    assert jobs["atlas"] == jobs["cfl"] == jobs["tables"] == jobs["errors"] == 1
+    assert jobs["batch"] > 10
+    assert sum(name.startswith("figure_stability_") for name in jobs) == 7

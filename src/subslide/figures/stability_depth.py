@@ -1,0 +1,20 @@
+"""Stability by depth of the water and density: a map for each scheme and order."""
+
+from subslide.figures import _atlas, _style
+from subslide.points import Point
+
+TITLE = "Where each method lives: depth of the water by density"
+CATEGORY = "8 Stability"
+NEEDS = {"scene": ("cylinder", "shear"), "treatment": ("real", "stop")}
+
+
+@_style.styled
+def draw(results):
+    """Return the figure: error of L_f over r and a_H, with marks where runs fail."""
+    column = {"a_2": Point.a_2, "delta": Point.delta, "boundary": "wall"}
+    figure, rows, entries = _atlas.maps(results, TITLE, "r", "a_H", **column)
+    notes = [
+        "Error: against the default scheme on the finest grid, where its two finest grids agree. With little water "
+        "over the column runs fail where it drains over the edge of grains at rest; which ones is chance."
+    ]
+    return _style.finish(figure, TITLE, _atlas.about(rows, ("a_2", "delta")), notes, more=entries)

@@ -1,0 +1,190 @@
+"""What failure looks like: profiles and series of runs that went wrong, beside those that did not."""
+
+from matplotlib.lines import Line2D
+
+from subslide import atlas
+from subslide.figures import _atlas, _style, _words
+from subslide.points import Point
+
+TITLE = "What failure looks like"
+CATEGORY = "8 Stability"
+NEEDS = {"scene": ("cylinder", "shear"), "treatment": ("real", "stop")}
+RIGHT = {"color": "#2a4d9b", "linewidth": 1.2, "linestyle": "-"}
+WRONG = {"color": "#b40426", "linewidth": 1.0, "linestyle": (0, (4, 1))}
+START = {"color": "0.75", "linewidth": 2.5, "linestyle": "-"}
+
+
+@_style.styled
+def draw(results):
+    """Return the figure: a panel for each way to fail; a study without such a run has none in its panel."""
+    figure, axes = _style.panels(6, 2, 1.9)
+    panels = (creeping, printed, checkerboard, blown_up, film, quiet)
+    for k, (ax, panel) in enumerate(zip(axes, panels, strict=True)):
+        title = panel(ax, results)
+        ax.set_title(_words.panel(k, title or f"{panel.__name__.replace('_', ' ')}: no such run"))
+    statuses = results.atlas["status"].value_counts()
+    ends = ", ".join(f"{name} {count}" for name, count in statuses.items())
+    never = [name for name in ("negative_depth", "diverged") if name not in statuses]
+    notes = [
+        f"Of the study's {len(results.atlas)} runs: {ends}."
+        + (f" None ended as {' or '.join(never)}: what leaves a cell is limited by what it holds, so depths stay "
+           "non-negative, and a run that blows up ends as step_collapse before its values overflow." if never else "")
+    ]  # fmt: skip
+    entries = [
+        (Line2D([], [], **START), "start in (a), grains in (e)"),
+        (Line2D([], [], **RIGHT), "as it should be"),
+        (Line2D([], [], **WRONG), "what went wrong"),
+    ]
+    return _style.finish(figure, TITLE, "real runs of this study", notes, entries, 3)
+
+
+def creeping(ax, results):
+    """Return the title of a panel of a pile, which friction must hold, after long creeping; None without such runs."""
+    wrong = first(results, scene="pile", friction_in_viscosity=False)
+    right = wrong is not None and twin(results, wrong, friction_in_viscosity=True)
+    if right is None or wrong is None:
+        return None
+    profile(ax, results, right, START, at=0)
+    profile(ax, results, right, RIGHT)
+    last = profile(ax, results, wrong, WRONG)
+    ax.set_xlim(0, 2.2)
+    labels(ax, "$x/R$", "$h_2/H_2$")
+    return f"creeping: a pile at rest after {last:.3g} s\nwithout friction in the viscosity"
+
+
+def printed(ax, results):
+    """Return the title of a panel of the paper's printed test of rest; None without such a run."""
+    wrong = first(results, as_printed="friction", r=Point.r, a_H=1)
+    if wrong is None:
+        return None
+    right = twin(results, wrong, as_printed="none")
+    if right is not None:
+        profile(ax, results, right, RIGHT)
+    last = profile(ax, results, wrong, WRONG)
+    ax.set_xlim(0, 3)
+    labels(ax, "$x/R$", "$h_2/H_2$")
+    return f"the printed test of rest stops nothing:\nstatus {wrong['status']} after {last:.3g} s"
+
+
+def checkerboard(ax, results):
+    """Return the title of a panel of oscillations between cells; None without such a run."""
+    row = fast(results, ascending=True)
+    if row is None:
+        return None
+    at = min(2, results.record(row["id"]).sizes["snapshot"] - 1)
+    right = twin(results, row, cfl=Point.cfl)
+    if right is not None:
+        profile(ax, results, right, RIGHT, "eta", at)
+    time = profile(ax, results, row, WRONG, "eta", at)
+    labels(ax, "$x/R$", "$\\eta/H_2$")
+    return f"checkerboard: Courant number {row['cfl']:g},\n{method(row)}, {time:.3g} s"
+
+
+def blown_up(ax, results):
+    """Return the title of a panel of the energy of a run that blew up; None without such a run."""
+    row = fast(results, ascending=False)
+    if row is None:
+        return None
+    energy(ax, results, row, WRONG)
+    return (
+        f"blow-up: Courant number {row['cfl']:g}, {method(row)}:\n{row['status']} after {row['steps']} steps"
+    )
+
+
+def film(ax, results):
+    """Return the title of a panel of a run that failed under a film of water; None without such a run."""
+    rows = usual(results)
+    rows = rows[(rows["status"] == "step_collapse") & (rows["a_H"] > 0)]
+    if rows.empty:
+        return None
+    row = rows.sort_values(["a_H", "id"]).iloc[-1]
+    data = results.record(row["id"]).isel(snapshot=-1)
+    height = row["a_2"] * row["radius"]
+    ax.plot(data["x"] / row["radius"], data["h2"] / height, **START)
+    ax.plot(data["x"] / row["radius"], 1 + row["a_H"] + data["eta"] / height, **WRONG)
+    labels(ax, "$x/R$", "$h_2/H_2$ and surface$/H_2$")
+    return f"{row['status']}: the film's water runs away\n({column(row)})"
+
+
+def quiet(ax, results):
+    """Return the title of a panel of a run that ended well although its energy rose; None without such a run."""
+    rows = usual(results)
+    rows = rows[rows["status"].isin(atlas.FINISHED) & (rows["energy_rise"] > atlas.GAINED)]
+    if rows.empty:
+        return None
+    row = rows.sort_values(["energy_rise", "id"]).iloc[-1]
+    energy(ax, results, row, WRONG)
+    fine = results.atlas[results.atlas["id"] == row["reference"]]
+    if len(fine):
+        energy(ax, results, fine.iloc[0], RIGHT)
+    return f"status {row['status']}, yet energy rose (blue: finest grid)\n({column(row)})"
+
+
+def usual(results):
+    """Return the rows of collapses behind walls with the default scheme on the grid of the maps."""
+    rows = _atlas.chosen(results, scheme=Point.scheme, boundary="wall", a_2=Point.a_2)
+    return rows[rows["cells"] == rows["cells"].mode().iloc[0]]
+
+
+def first(results, **values):
+    """Return the first row of a first-order run of the default scheme with these values, or None."""
+    rows = results.atlas
+    for key, value in {"scheme": Point.scheme, "order": 1, **values}.items():
+        rows = rows[rows[key] == value]
+    return rows.iloc[0] if len(rows) else None
+
+
+def fast(results, ascending):
+    """Return the row with the least or the largest Courant number above 1 of a first-order run, or None."""
+    rows = results.atlas[(results.atlas["cfl"] > 1) & (results.atlas["order"] == 1)]
+    return None if rows.empty else rows.sort_values(["cfl", "scheme"], ascending=[ascending, True]).iloc[0]
+
+
+def twin(results, row, **values):
+    """Return the row of the run that differs in these values alone, or None."""
+    found = results.atlas
+    for key in (
+        *_atlas.USUAL,
+        "a_H",
+        "a_2",
+        "r",
+        "delta",
+        "scene",
+        "scheme",
+        "order",
+        "cells",
+        "boundary",
+        "model",
+    ):
+        found = found[found[key] == values.get(key, row[key])]
+    return found.iloc[0] if len(found) else None
+
+
+def profile(ax, results, row, look, quantity="h2", at=-1):
+    """Return the time (s) of a profile of a run, which is then in `ax`, over H2."""
+    data = results.record(row["id"]).isel(snapshot=at)
+    ax.plot(data["x"] / row["radius"], data[quantity] / (row["a_2"] * row["radius"]), **look)
+    return float(data["snapshot_time"])
+
+
+def energy(ax, results, row, look):
+    """Nothing; the energy of a run over time is in `ax`, over that of its start."""
+    data = results.record(row["id"])
+    ax.semilogy(data["time"], data["energy"] / float(data["energy"][0]), **look)
+    labels(ax, "$t$ (s)", "energy$/E_0$ (1)")
+
+
+def method(row):
+    """Return a run's scheme and order, in words."""
+    return f"{row['scheme'].upper()} of order {row['order']}"
+
+
+def column(row):
+    """Return what tells a run's column apart, in words."""
+    return ", ".join(_words.equation(key, row[key]) for key in ("a_H", "r", "delta", "order"))
+
+
+def labels(ax, x, y):
+    """Nothing; both axes have their labels."""
+    ax.set_xlabel(x)
+    ax.set_ylabel(y)

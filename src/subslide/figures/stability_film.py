@@ -1,0 +1,20 @@
+"""Stability under a vanishing film of water by friction angle: a map for each scheme and order."""
+
+from subslide.figures import _atlas, _style
+from subslide.points import Point
+
+TITLE = "Where each method lives: a film of water over the column"
+CATEGORY = "8 Stability"
+NEEDS = {"scene": ("cylinder", "shear"), "treatment": ("real", "stop")}
+
+
+@_style.styled
+def draw(results):
+    """Return the figure: error of L_f over delta and a_H, with marks where runs fail."""
+    column = {"a_2": Point.a_2, "r": Point.r, "boundary": "wall"}
+    figure, rows, entries = _atlas.maps(results, TITLE, "delta", "a_H", **column)
+    notes = [
+        "At $a_H$ = 0 the column touches the surface. Where friction holds a part of the flat top, the film drains "
+        "over its edge, and a cell that runs dry beside deeper water can be driven faster and faster."
+    ]
+    return _style.finish(figure, TITLE, _atlas.about(rows, ("a_2", "r")), notes, more=entries)

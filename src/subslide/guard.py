@@ -1,0 +1,197 @@
+"""Regions of parameters and numerics that the stability atlas found unsafe: a run in one says so once, on stderr.
+
+Each region is earned: tests/study/test_guard.py solves its `example` and shows that it fails, gains energy or misses
+the answer, where the same run with what the region suggests does not. Imports no kernels.
+"""
+
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
+
+from subslide.points import Point, friction_number
+
+
+class Region(NamedTuple):
+    """A region: whether a point lies in it, why it is unsafe, what to choose instead, and where that was seen:
+    the study, and its part.
+
+    example: keys of a run in it that shows the harm; instead: keys that mend that run.
+    """
+
+    name: str
+    holds: Callable[[Point], bool]
+    reason: str
+    advice: str
+    example: dict
+    instead: dict
+    seen: str
+
+
+FILM = 0.2
+"""Depth of water over the column, over its height, below which a step of grains at rest may drive it."""
+HELD = (0.6, 4.0)
+"""Range of tan(delta)/a_2 in which some of the column stays at rest with a steep edge."""
+LEAST_FRICTION = 0.08
+"""tan(delta)/a_2 below which grains run further than the largest box reaches."""
+FLOATING = 0.995
+"""Density ratio above which waves between the layers are so slow and lasting that errors pile up."""
+LARGEST_CFL = 1.0
+
+
+def _under_film(point: Point) -> bool:
+    return (
+        point.scene in ("cylinder", "columns", "ellipse")
+        and point.model != "one-layer"
+        and point.quantities == "all"
+        and point.a_H < FILM
+        and HELD[0] <= friction_number(point) <= HELD[1]
+        and point.r < 0.9
+    )
+
+
+def _far(point: Point) -> bool:
+    return point.t_end is None and point.friction == "coulomb" and friction_number(point) < LEAST_FRICTION
+
+
+def _floating(point: Point) -> bool:
+    return point.r > FLOATING and point.model != "one-layer" and point.scheme in ("ifcph", "ifcp", "roe")
+
+
+def _standing_jump(point: Point) -> bool:
+    if point.scene != "dam_break" or point.order != 1 or point.scheme not in ("ifcp", "roe"):
+        return False
+    return _option(point, "downstream") == 0
+
+
+def _sliding(point: Point) -> bool:
+    return point.scene == "shear" and point.treatment in ("real", "hll") and _option(point, "shear") > 1
+
+
+def _option(point: Point, name: str):
+    """Option of a point's scene, or the default of its exact solution."""
+    from subslide import exact
+
+    return {**exact.load(point.scene).DEFAULTS, **dict(point.scene_options)}[name]
+
+
+REGIONS = (
+    Region(
+        "film of water",
+        _under_film,
+        f"below a_H = {FILM:g}, with tan(delta)/a_2 from {HELD[0]:g} to {HELD[1]:g}, runs may gain energy or end as"
+        " step_collapse (below 0.1 up to half of them, above it one in a few hundred, on fine grids): the film drains"
+        " over the edge of grains at rest, and where it runs dry its speed grows without bound",
+        f"a_H of {FILM:g} or more; or r: 0 with quantities: grains, which leaves the water out",
+        {"a_H": 0.0215, "delta": 40, "cells": 100, "boundary": "wall"},
+        {"a_H": 0.3},
+        "stability, maps of a_H by r and by delta",
+    ),
+    Region(
+        "Courant number",
+        lambda point: point.cfl > LARGEST_CFL,
+        "above a Courant number of 1 waves grow by every scheme, and from 1.1 on columns that collapse blow up too",
+        "cfl of 0.9 or less",
+        {"cfl": 1.5, "delta": 0, "boundary": "wall", "t_end": 0.6, "cells": 100, "order": 1},
+        {"cfl": 0.9},
+        "stability, table of Courant numbers",
+    ),
+    Region(
+        "little friction",
+        _far,
+        f"with tan(delta)/a_2 below {LEAST_FRICTION:g} grains run further than the largest box reaches, and without"
+        " friction they never rest: the run ends as left_domain, or at the cap in time",
+        "a number for t_end, more friction or a lower column",
+        {"delta": 0, "cells": 40},
+        {"t_end": 0.2},
+        "stability, map of a_2 by delta",
+    ),
+    Region(
+        "floating grains",
+        _floating,
+        f"above r = {FLOATING:g} waves between the layers swing for long, and solvers that resolve them gain energy"
+        " from them, the more the less friction there is; some runs end as step_collapse",
+        "scheme: hll or rusanov, or a t_end before the waves come back from the box's ends",
+        {"r": 0.999, "a_2": 1, "delta": 5.71, "boundary": "wall", "cells": 100},
+        {"scheme": "hll"},
+        "stability, grains that nearly float",
+    ),
+    Region(
+        "printed formula",
+        lambda point: point.as_printed != "none",
+        "the paper's printed test of rest compares a speed with an acceleration and stops no grains; its printed"
+        " upwinding takes velocities from the wrong side",
+        "as_printed: none",
+        {"as_printed": "friction", "cells": 40},
+        {"as_printed": "none"},
+        "stability, printed formulas",
+    ),
+    Region(
+        "creeping",
+        lambda point: not point.friction_in_viscosity,
+        "without friction in the viscosity grains that friction holds creep for ever, fastest at first order",
+        "friction_in_viscosity: true",
+        {
+            "friction_in_viscosity": False,
+            "scene": "pile",
+            "scene_options": {"steepness": 0.95},
+            "order": 1,
+            "cells": 40,
+            "t_end": 2,
+        },
+        {"friction_in_viscosity": True},
+        "stability, piles",
+    ),
+    Region(
+        "standing jump",
+        _standing_jump,
+        "at first order this solver keeps a standing jump where a wave speed passes zero on a dry bed, on any grid",
+        "scheme: ifcph, or order: 2",
+        {
+            "scene": "dam_break",
+            "scene_options": {"layer": "water"},
+            "a_H": 0,
+            "scheme": "ifcp",
+            "order": 1,
+            "delta": 0,
+            "cells": 200,
+            "t_end": 0.17,
+        },
+        {"scheme": "ifcph"},
+        "accuracy, dam breaks",
+    ),
+    Region(
+        "sliding layers",
+        _sliding,
+        "above the limit of hyperbolicity finer waves grow faster: answers do not converge as cells shrink",
+        "treatment: friction, or stop, or a shear below 1",
+        {
+            "scene": "shear",
+            "scene_options": {"shear": 1.5, "amplitude": 1e-3},
+            "boundary": "periodic",
+            "delta": 0,
+            "cells": 100,
+            "t_end": 1.5,
+        },
+        {"treatment": "friction"},
+        "stability, layers that slide",
+    ),
+)
+
+
+def regions_of(point: Point) -> list[Region]:
+    """Regions that a point lies in."""
+    return [region for region in REGIONS if region.holds(point)]
+
+
+def cautions(points: Iterable[Point]) -> list[str]:
+    """Lines to say of points, one for each region that any lies in, with how many do where there are several."""
+    points = list(points)
+    lines = []
+    for region in REGIONS:
+        count = sum(map(region.holds, points))
+        if count:
+            who = f"{count} of {len(points)} runs" if len(points) > 1 else "this run"
+            lines.append(
+                f"caution, {region.name} ({who}): {region.reason}. Choose {region.advice}."
+                " See docs/stability.md."
+            )
+    return lines

@@ -1,0 +1,84 @@
+"""What the stability atlas says of each method, as text and as the table of a page of documentation."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from subslide import atlas, guard
+from subslide.atomic import write_text
+from subslide.points import RUN_KEYS, Point, from_dict
+from subslide.results import Results
+from subslide.schema import ConfigError
+from subslide.verification import END, START
+
+
+def methods(table: pd.DataFrame) -> pd.DataFrame:
+    """Table of how each scheme and order did on the columns that the atlas solves by all of them: runs, how many failed
+    or gained energy, and errors."""
+    usual = {key: getattr(Point(), key) for key in atlas.VARIANTS}
+    chosen = table[(table["scene"] == "cylinder") & (table["model"] == "radial") & (table["t_end"] == "rest")]
+    for key, value in usual.items():
+        chosen = chosen[chosen[key] == value]
+    column = ["cells", "a_H", "a_2", "r", "delta", "boundary"]
+    everywhere = chosen.groupby(column)["scheme"].transform("nunique") == chosen["scheme"].nunique()
+    rows = []
+    for (scheme, order), runs in chosen[everywhere].groupby(["scheme", "order"], sort=False):
+        ended = runs["status"].isin(atlas.FINISHED)
+        rows.append(
+            {
+                "method": f"{scheme.upper()}, order {order}",
+                "runs": len(runs),
+                "failed": int((~ended & (runs["status"] != "left_domain")).sum()),
+                "gained energy": int((ended & (runs["energy_rise"] > atlas.GAINED)).sum()),
+                "left the box": int((runs["status"] == "left_domain").sum()),
+                "judged": int(runs["L_f_error"].notna().sum()),
+                **{
+                    f"{name} of {quantity}": _quantile(runs[column], share)
+                    for quantity, column in (("L_f", "L_f_error"), ("max abs eta", "max_abs_eta_error"))
+                    for name, share in (("median error", 0.5), ("9 in 10 within", 0.9))
+                },
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+def report(folder: Path) -> str:
+    """Text on a study with an atlas: how many runs ended in each status, the table of methods, and the runs that failed
+    or gained energy although `guard` has no caution for them."""
+    table = atlas.read(folder)
+    counts = ", ".join(f"{status}: {count}" for status, count in table["status"].value_counts().items())
+    missed = unguarded(Results(folder), table)
+    names = f": {' '.join(missed)}" if missed else ""
+    return (
+        f"{len(table)} runs; {counts}\n\n{methods(table).to_string(index=False)}\n\n"
+        f"{len(missed)} runs failed or gained energy outside every region that guard.py cautions of{names}"
+    )
+
+
+def unguarded(results: Results, table: pd.DataFrame) -> list[str]:
+    """Ids of the runs that failed or gained energy and lie in no region of `guard`."""
+    points = {row["id"]: from_dict({key: row[key] for key in RUN_KEYS}) for row in results.points}
+    harmed = ~table["status"].isin([*atlas.FINISHED, "hyperbolicity_lost"]) | (
+        table["energy_rise"] > atlas.GAINED
+    )
+    return [name for name in table.loc[harmed, "id"] if not guard.regions_of(points[name])]
+
+
+def renew(page: Path, folder: Path) -> None:
+    """Nothing; the page of documentation holds the table of methods of a study between its two marks."""
+    text = page.read_text(encoding="utf-8")
+    if START not in text or END not in text:
+        raise ConfigError(
+            f"--output: {page} lacks the lines '{START}' and '{END}' that its table goes between"
+        )
+    found = methods(atlas.read(folder))
+    rows = [list(found.columns), ["---"] * len(found.columns), *found.astype(str).to_numpy().tolist()]
+    lines = "\n".join("| " + " | ".join(row) + " |" for row in rows)
+    before, rest = text.split(START, 1)
+    write_text(page, f"{before}{START}\n\n{lines}\n\n{END}{rest.split(END, 1)[1]}")
+
+
+def _quantile(values: pd.Series, share: float) -> str:
+    """Quantile of the values that are known, in per cent; '' if none is."""
+    values = values.dropna()
+    return f"{values.quantile(share):.1%}" if len(values) else ""

@@ -1,0 +1,124 @@
+"""Guard rails: each unsafe region is earned by a real run in it, and a normal run says nothing."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from subslide import config, energy, exact, guard
+from subslide.__main__ import main
+from subslide.atlas import GAINED
+from subslide.points import Point
+from subslide.solver import solve
+
+REGIONS = {region.name: region for region in guard.REGIONS}
+
+
+def gain(run):
+    """Largest rise of a run's energy over what its start can release."""
+    return energy.rise(
+        run.point, run.model, run.box_half_width, run.energy, run.water_volume, run.sediment_volume
+    )
+
+
+def jump(run):
+    """Largest jump of the surface between neighbouring cells, over H2."""
+    return np.abs(np.diff(run.eta[-1])).max() / (run.point.a_2 * run.point.radius)
+
+
+def off(run):
+    """Mean distance of h2 from linear theory over the exact amplitude at the end of the scene `shear`."""
+    answer = exact.load("shear")
+    h2 = answer.solution(run.point, run.x, run.time[-1])["h2"]
+    size = answer.amplitude(run.point, run.time[-1]) * run.point.a_2 * run.point.radius
+    return np.abs(run.h2[-1] - h2).mean() / size
+
+
+HARM = {
+    "film of water": lambda run: run.status == "step_collapse" or gain(run) > 5,
+    "Courant number": lambda run: run.status != "ok" or gain(run) > GAINED,
+    "little friction": lambda run: run.status in ("left_domain", "not_at_rest"),
+    "floating grains": lambda run: gain(run) > GAINED,
+    "printed formula": lambda run: run.status == "not_at_rest",
+    "creeping": lambda run: np.abs(run.h2[-1] - run.h2[0]).max() > 1e-3 * run.h2.max(),
+    "standing jump": lambda run: jump(run) > 0.2,
+    "sliding layers": lambda run: np.ptp(run.h2[-1]) > 0.05 * run.h2.mean(),
+}
+"""What goes wrong in each region, as a function of a run."""
+
+
+@pytest.mark.parametrize("name", [name for name in REGIONS if name != "film of water"])
+def test_a_region_is_earned_and_its_advice_mends(name):
+    region = REGIONS[name]
+    wrong, right = (config.make_point(values) for values in (region.example, region.example | region.instead))
+    assert region.holds(wrong)
+    assert not region.holds(right)
+    assert HARM[name](solve(wrong))
+    assert not HARM[name](solve(right))
+
+
+def test_a_film_of_water_often_fails_and_deeper_water_never():
+    region = REGIONS["film of water"]
+    harm = {True: [], False: []}
+    for a_H, delta, r, order in itertools.product(
+        (0.0215, 0.04, 0.25, 0.5), (32, 36, 40), (0.2, 0.4), (1, 2)
+    ):
+        point = config.make_point({**region.example, "a_H": a_H, "delta": delta, "r": r, "order": order})
+        harm[region.holds(point)].append(HARM[region.name](solve(point)))
+    assert np.mean(harm[True]) > 0.2
+    assert not any(harm[False])
+
+
+def test_grains_with_little_friction_leave_the_largest_box():
+    for a_2, delta, held in ((10.0, 30.0, True), (4.64, 15.0, True), (0.56, 5.0, False)):
+        point = Point(a_2=a_2, delta=delta, cells=60)
+        assert REGIONS["little friction"].holds(point) == held
+        assert (solve(point).status == "left_domain") == held
+
+
+def test_every_region_is_tested_and_says_what_to_choose():
+    assert set(HARM) == set(REGIONS)
+    for region in guard.REGIONS:
+        (line,) = [
+            text for text in guard.cautions([config.make_point(region.example)]) if region.name in text
+        ]
+        assert region.reason in line
+        assert f"Choose {region.advice}" in line
+
+
+def test_every_region_was_seen_in_a_study(root):
+    for region in guard.REGIONS:
+        study = config.read_study(root / "config" / f"{region.seen.split(',')[0]}.yaml")
+        assert any(map(region.holds, study.points)), region.name
+
+
+def test_the_default_and_the_papers_range_are_in_no_region():
+    assert guard.cautions([Point()]) == []
+    for a_H, r, order in itertools.product((0.5, 1, 10), (0, 0.4, 0.8), (1, 2)):
+        assert guard.regions_of(Point(a_H=a_H, r=r, order=order)) == []
+
+
+def test_a_study_says_it_once_for_each_region():
+    points = [Point(cfl=cfl, delta=0.0) for cfl in (0.5, 1.5, 2.0)]
+    lines = guard.cautions(points)
+    assert len(lines) == 2
+    assert "(2 of 3 runs)" in lines[0]
+    assert "(3 of 3 runs)" in lines[1]
+
+
+def test_a_normal_run_is_silent_and_an_unsafe_one_says_so_once(tmp_path, capfd):
+    options = ["run", "--cells", "20", "--t-end", "0.01", "-o", str(tmp_path / "a.nc")]
+    assert main(options) == 0
+    assert capfd.readouterr().err == ""
+    assert main([*options, "--cfl", "1.5"]) == 0
+    said = capfd.readouterr().err
+    assert said.count("\n") == said.count("caution") == 1
+    assert "subslide: caution, Courant number (this run)" in said
+
+
+def test_check_cautions_of_a_study(write_yaml, capfd):
+    path = write_yaml("study: t\na_H: [0.02, 1]\ncells: 20\nfigures: none\n")
+    assert main(["check", str(path)]) == 0
+    said = capfd.readouterr()
+    assert "2 runs" in said.out
+    assert "film of water (1 of 2 runs)" in said.err
