@@ -20,7 +20,6 @@ from .jit import driver, inlined, launch
 from .planar import (
     cell_speeds,
     edges,
-    faces,
     fill_ghosts,
     fill_stuck,
     marks,
@@ -29,6 +28,7 @@ from .planar import (
     water_cell_speeds,
     water_edges,
 )
+from .planar_faces import faces
 from .reduce import largest, smallest
 from .span import (
     FIRST,

@@ -10,11 +10,14 @@ LOST_GRAINS = 1e-3
 
 
 def first_suspect(cells, names):
-    """Return the first cell that is not finite or has a negative depth, with its scaled state; '' if there is none."""
+    """Return the first cell that is not finite or has a negative depth, else the fastest, with its scaled state."""
     values = inner(cells, names)
     bad = (values["h1"] < 0) | (values["h2"] < 0)
     for array in values.values():
         bad |= ~np.isfinite(array)
+    if not bad.any():
+        pace = inner(cells, ("pace",))["pace"]
+        bad = pace == pace.max()
     return described(bad, values)
 
 
