@@ -6,14 +6,15 @@
 static inline REAL least(REAL x, REAL y) { return x < y ? x : y; }
 static inline REAL most(REAL x, REAL y) { return x > y ? x : y; }
 
-/* One Newton step on ((x - u1)^2 - h1) ((x - u2)^2 - h2) - k; stays where the slope is zero. */
+/* One Newton step on ((x - u1)^2 - h1) ((x - u2)^2 - h2) - k; stays where the slope or k is zero. */
 static inline REAL newton(REAL x, REAL u1, REAL h1, REAL u2, REAL h2, REAL k)
 {
     REAL d1 = x - u1, d2 = x - u2;
     REAL a = d1 * d1 - h1, b = d2 * d2 - h2;
     REAL slope = d1 * b + d2 * a;
-    REAL step = (a * b - k) / (slope != 0 ? slope + slope : (REAL)1);
-    return slope != 0 ? x - step : x;
+    int moves = (slope != 0) & (k != 0);
+    REAL step = (a * b - k) / (moves ? slope + slope : (REAL)1);
+    return moves ? x - step : x;
 }
 
 static inline REAL roe_velocity(REAL root_i, REAL u_i, REAL root_j, REAL u_j)

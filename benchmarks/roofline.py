@@ -25,7 +25,9 @@ def rows_of_limits(dtypes, **sizes):
 def rows_of_kernels(rows):
     """Return rows for each kernel that `rows` timed: operations and bytes of an edge or a cell, operations a second.
 
-    The ceiling is the rate at which a core could do nothing but the kernel's divisions and roots, all else for free.
+    The ceiling is the rate at which a core could do nothing but the kernel's divisions and roots, all else for free. In
+    the plane every cell counts as a general one (see `step_counts`), which the solver need not do: its rate is that of
+    the work asked for, not done, and may lie above its ceiling.
     """
     counts = count()
     found = []

@@ -94,7 +94,7 @@ def parts(quick):
         )  # 1104 edges stay in the L2 cache
 
     def loops(_):
-        return runs.beside_c(dtypes, *((2, 0.01) if quick else (7, 0.04)))
+        return runs.beside_c(dtypes, 2 if quick else 5)
 
     def whole_runs(_):
         cases = runs.all_cases(dtypes)

@@ -46,7 +46,7 @@ def write(path, rows):
 
 
 class Criterion(NamedTuple):
-    """A target: which row it is about, the number to reach, and whether more or less is better."""
+    """A target: which row it is about, the number to reach (or to stay below), and whether more or less is better."""
 
     text: str
     quantity: str
@@ -126,7 +126,7 @@ def criteria_text(rows):
     """Return the table of targets as lines of text: criterion, measured (lowest to highest), target."""
     lines = [("criterion", "measured", "target", "")]
     for criterion, value in verdicts(rows):
-        sign = ">=" if criterion.at_least else "<="
+        sign = ">=" if criterion.at_least else "<"
         measured, verdict = "not measured", ""
         if value is not None:
             measured = f"{value.median:.3g} ({value.low:.3g} to {value.high:.3g})"
