@@ -110,7 +110,7 @@ def step_counts(order, n=6):
     """
     import numpy as np
 
-    from subslide.kernels import planar
+    from subslide.kernels import planar, planar_faces
     from subslide.kernels.arrays import GHOSTS, Cells, Fluxes, Marks, Side
     from subslide.kernels.span import LAST, SPANS, WET_LAST
 
@@ -147,7 +147,7 @@ def step_counts(order, n=6):
 
     def fluxes():
         if order != 1:
-            planar.faces(s, c, mk, row, left, right, lower, upper, now, now, 0, n, dt)
+            planar_faces.faces(s, c, mk, row, left, right, lower, upper, now, now, 0, n, dt)
         rows, shift, step = along_x
         planar.fill_stuck(s, c, fx.stuck, j, rows, shift, step, 0, n, dt)
         planar.edges(s, fx, j, c.slow_x, c.fast_x, rows, right, left, (now, now), shift, step, 0, n)
