@@ -25,7 +25,7 @@ from .axial import (
 from .boundary import OPEN, PERIODIC
 from .interlayer import judged
 from .jit import inlined, launch
-from .reduce import largest, smallest
+from .reduce import extremes
 from .span import grain_span, moved_span, reached, split, water_may_be_alone, wet_span
 
 
@@ -38,8 +38,8 @@ def sample(s, c, weight, total, thresholds, probe, low, high, wet, now, row):
     row[k.TIME] = now
     for m in range(3):
         row[k.FRONT + m] = front_position(c.h2, c.h2, beside, wet[1], thresholds[m], s.dx)
-    row[k.ETA] = largest_displacement(c.eta, level, start, stop)
-    row[k.ETA_OUTSIDE] = largest_displacement(c.eta, level, beyond, stop)
+    row[k.ETA_OUTSIDE] = largest_displacement(c.eta, level, max(start, beyond), stop)
+    row[k.ETA] = max(row[k.ETA_OUTSIDE], largest_displacement(c.eta, level, start, min(beyond, stop)))
     water, grains, energy = row_budget(c.h1, c.u1, c.v1, c.h2, c.u2, c.v2, weight, s.r, low, high)
     rest = total[n] - (total[high] - total[low])
     row[k.WATER] = water + rest * still1
@@ -121,20 +121,20 @@ def advance(
         row = samples[n]
         sample(s, c, weight, total, thresholds, probe, low, high, wet, now, row)
         finite = math.isfinite(row[k.ENERGY]) and math.isfinite(row[k.WATER] + row[k.GRAINS])
-        shallowest = min(smallest(c.h1, low, high), smallest(c.h2, low, high))
+        shallowest, square2, pace = extremes(c.h1, c.h2, c.square2, c.pace, low, high)
         rim = rim_depth(c.h2, walls)
         n += 1
         code = k.outcome(
             clock,
             finite,
             shallowest,
-            largest(c.square2, low, high),
+            square2,
             rim >= thresholds[0] or row[k.GRAINS] < least_grains,
             n == samples.shape[0],
         )
         code = judged(s, code, row[k.COMPLEX])
         if code == k.RUNNING:
-            pace = max(largest(c.pace, low, high), max(c.pace[0], c.pace[cells - 1]))
+            pace = max(pace, max(c.pace[0], c.pace[cells - 1]))
             stop = clock[k.STOP]
             stable = s.cfl * s.dx / pace if pace > real(0) else real(stop - now)
             if stable < k.SMALLEST_STEP * s.dx:

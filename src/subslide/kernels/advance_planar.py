@@ -29,7 +29,7 @@ from .planar import (
     water_edges,
 )
 from .planar_faces import faces
-from .reduce import largest, smallest
+from .reduce import extremes, largest, smallest
 from .span import (
     FIRST,
     HIGH,
@@ -68,9 +68,8 @@ def measure_row(s, c, j, walls, probe, inside, weight, total, span, row):
     span[LOW] = low
     span[HIGH] = high
     span[WET_LOW], span[WET_HIGH] = grain_span(h2, u2, v2, span[WET_FIRST], span[WET_LAST])
-    row[PACE] = max(largest(c.pace[j], low, high), max(c.pace[j, 0], c.pace[j, nx - 1]))
-    row[SQUARE2] = largest(c.square2[j], low, high)
-    row[SHALLOWEST] = min(smallest(h1, low, high), smallest(h2, low, high))
+    row[SHALLOWEST], row[SQUARE2], pace = extremes(h1, h2, c.square2[j], c.pace[j], low, high)
+    row[PACE] = max(pace, max(c.pace[j, 0], c.pace[j, nx - 1]))
     row[RIM] = 0.0
     if walls[0] == OPEN:
         row[RIM] = max(row[RIM], max(h2[GHOSTS], h2[GHOSTS + 1]))

@@ -21,3 +21,19 @@ def smallest(row, start, stop):
     for k in range(count):
         bottom = min(bottom, row[k + first])
     return bottom
+
+
+@maximum
+def extremes(h1, h2, square2, pace, start, stop):
+    """Return the smallest of 0 and either depth, the largest |u2|^2 and the largest pace of cells start..stop-1."""
+    zero = type(h1[0])(0)
+    shallowest = zero
+    square = zero
+    fastest = zero
+    first, count = part(start, stop)
+    for k in range(count):
+        i = k + first
+        shallowest = min(shallowest, min(h1[i], h2[i]))
+        square = max(square, square2[i])
+        fastest = max(fastest, pace[i])
+    return shallowest, square, fastest
