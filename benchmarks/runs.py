@@ -174,7 +174,7 @@ def arrays_in(value):
 
 
 def threads(cells, rounds, order=2, many=2):
-    """Return rows: how many times faster `many` threads are than one, on a plane for about twenty steps."""
+    """Return rows: how many times faster `many` threads are than one, on a plane for about a hundred steps."""
     command = [sys.executable, __file__, str(cells), str(rounds), str(order), str(many)]
     environment = os.environ | {"NUMBA_NUM_THREADS": str(many)}
     done = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
@@ -192,7 +192,7 @@ def threads(cells, rounds, order=2, many=2):
 
 def threads_here(cells, rounds, order, many):
     """Return {threads: [cell updates/s]} of this process, whose numba may use `many` threads; they take turns."""
-    point = point_of("plane", order, cells=cells, t_end=6.4 / cells)
+    point = point_of("plane", order, cells=cells, t_end=32 / cells)
     rates = {}
     for count in (1, many):
 

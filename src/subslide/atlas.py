@@ -64,6 +64,7 @@ COLUMNS = {
         " root of their area, over R",
     ),
     "nonhyperbolic_time": ("", "share of the time steps with such a cell"),
+    "hyperbolic_margin": ("", "`hyperbolic_margin_min` of runs.csv; empty for one layer"),
     "energy_rise": (
         "",
         "largest rise of the energy after any moment, over what the start can release: its energy less that of flat"
@@ -189,6 +190,7 @@ def budget(point: Point, run: xr.Dataset, row: pd.Series) -> dict:
     return {
         "nonhyperbolic_length": math.sqrt(extent) * dx if plane else extent * dx,
         "nonhyperbolic_time": float((lost > 0).mean()),
+        "hyperbolic_margin": float(row["hyperbolic_margin_min"]),
         "energy_rise": rise,
         "volume_drift": drifts.max(),
         "why_budget": why,

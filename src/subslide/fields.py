@@ -46,6 +46,12 @@ SERIES = {
         "E", STEP, "m5 s-2", "mechanical energy in the box over the density of grains, relative to the bed"
     ),
     "nonhyperbolic_cells": Field("n_c", STEP, "1", "cells where the two layers' wave speeds are complex"),
+    "hyperbolic_margin": Field(
+        "m_c",
+        STEP,
+        "1",
+        "smallest discriminant of the wave speeds over that without shear: 1 at rest, below 0 where they are complex",
+    ),
 }
 
 PROFILES = {

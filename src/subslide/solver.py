@@ -57,6 +57,7 @@ class Run:
     water_volume: np.ndarray
     energy: np.ndarray
     nonhyperbolic_cells: np.ndarray
+    hyperbolic_margin: np.ndarray
     snapshot_time: np.ndarray
     h2: np.ndarray
     eta: np.ndarray
@@ -198,6 +199,7 @@ def make_run(point, model, series, snapshots, status, detail, wall, clock):
         water_volume=nothing if lonely else column[k.WATER] * volume,
         energy=column[k.ENERGY] * volume * H2 * point.g,
         nonhyperbolic_cells=column[k.COMPLEX] * model.copies,
+        hyperbolic_margin=nothing if lonely else column[k.MARGIN],
         snapshot_time=np.array([t for t, _, _ in snapshots]),
         h2=stack(profiles, "h2"),
         eta=np.full((len(profiles), len(model.x)), np.nan) if lonely else stack(profiles, "eta"),

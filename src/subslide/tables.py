@@ -59,6 +59,10 @@ COLUMNS = {
     ),
     "water_volume_error": ("", "the same for water"),
     "nonhyperbolic_cells_max": ("", "most cells, at any one time, where the wave speeds are complex"),
+    "hyperbolic_margin_min": (
+        "",
+        "smallest margin to complex wave speeds at any time, a discriminant: 1 at rest, below 0 where complex",
+    ),
     **{
         f"{name}_{part}": (bands.COLUMNS[part][0], f"`{part}` of {name} in bands.csv; empty without bands")
         for name in bands.ONCE
@@ -142,6 +146,7 @@ def run_row(row: dict, run: xr.Dataset) -> dict:
     for name in ("sediment_volume", "water_volume"):
         found[f"{name}_error"] = _relative_change(run[name].values[:last])
     found["nonhyperbolic_cells_max"] = int(np.nan_to_num(run["nonhyperbolic_cells"].values).max())
+    found["hyperbolic_margin_min"] = float(run["hyperbolic_margin"].min())
     return found
 
 

@@ -142,3 +142,23 @@ def test_the_solution_moves_and_grows_with_the_wave():
         assert np.abs(getattr(result, name)[-1] - exact[name]).max() < 0.02 * height
     assert shear.amplitude(point, point.t_end) == pytest.approx(1e-5 * np.exp(0.25))
     assert np.isnan(shear.solution(dataclasses.replace(point, delta=5.0), result.x, 0.1)["h2"]).all()
+
+
+def test_the_margin_is_one_at_rest_and_negative_where_speeds_are_complex():
+    critical = shear.critical_shear(1.0, 1.0, 0.8)
+    for factor, cells in ((0.0, 0), (0.5, 0), (0.999, 0), (1.01, 20), (1.3, 20)):
+        model = axial(
+            np.arange(21) * 0.05,
+            1.0,
+            factor * critical,
+            1.0,
+            0.0,
+            level=2.0,
+            r=0.8,
+            friction=0.0,
+            walls=(2, 2),
+        )
+        samples, _ = advance(model, steps=0)
+        assert samples[0, k.COMPLEX] == cells
+        margin = samples[0, k.MARGIN]
+        assert margin == 1 if factor == 0 else 0 < margin < 1 if factor < 1 else margin < 0

@@ -31,6 +31,7 @@ def made_up_run(point: Point, steps: int = 20, grown: int = 0, **changes) -> Sim
         water_volume=np.full(steps + 1, 3.0),
         energy=3 - time,
         nonhyperbolic_cells=np.zeros(steps + 1),
+        hyperbolic_margin=np.ones(steps + 1),
         snapshot_time=snapshots,
         h2=np.tile(height * np.exp(-(x**2)), (3, 1)),
         eta=np.zeros((3, len(x))),

@@ -27,6 +27,7 @@ PROMISED = {
     "water_volume": ("run", "step"),
     "energy": ("run", "step"),
     "nonhyperbolic_cells": ("run", "step"),
+    "hyperbolic_margin": ("run", "step"),
     "h2": ("run", "snapshot", "x"),
     "eta": ("run", "snapshot", "x"),
     "snapshot_time": ("run", "snapshot"),

@@ -1,6 +1,6 @@
 """Volumes, energy and the cells that lost hyperbolicity: sums over a row."""
 
-from ..kernels.jit import part, summed
+from ..kernels.jit import maximum, part, summed
 from ..kernels.waves import discriminant
 
 
@@ -25,15 +25,24 @@ def row_budget(h1, u1, v1, h2, u2, v2, weight, r, start, stop):
     return water, grains, energy
 
 
-@summed
-def row_nonhyperbolic(h1, u1, v1, h2, u2, v2, r, dry_depth, margin, start, stop):
-    """Return how many of a row's cells start..stop-1, wet in both layers, have complex speeds along their shear."""
-    found = 0.0
+@maximum
+def row_hyperbolicity(h1, u1, v1, h2, u2, v2, r, dry_depth, margin, start, stop):
+    """Return how many of a row's cells start..stop-1 have complex speeds along their shear, and the smallest margin.
+
+    Cells that are wet in both layers count. The margin of a cell is its discriminant over that without shear, each
+    scaled to depths and shear of order 1: 1 without shear, 0 where two speeds meet, negative where they are complex.
+    """
+    lost = 0.0
+    smallest = 1.0
     first, count = part(start, stop)
     for k in range(count):
         i = k + first
         du = u1[i] - u2[i]
         dv = v1[i] - v2[i]
         wet = min(h1[i], h2[i]) > dry_depth
-        found += 1.0 if wet and discriminant(h1[i], h2[i], du * du + dv * dv, r) < -margin else 0.0
-    return found
+        sheared = discriminant(h1[i], h2[i], du * du + dv * dv, r)
+        still = discriminant(h1[i], h2[i], type(r)(0), r)
+        judged = wet and still > margin
+        lost += 1.0 if wet and sheared < -margin else 0.0
+        smallest = min(smallest, sheared / (still if judged else type(r)(1)) if judged else 1.0)
+    return lost, smallest

@@ -4,7 +4,7 @@ import math
 
 from numba import prange
 
-from ..diagnostics.budget import row_budget, row_nonhyperbolic
+from ..diagnostics.budget import row_budget, row_hyperbolicity
 from ..diagnostics.front import front_position
 from ..diagnostics.surface import largest_displacement
 from . import clock as k
@@ -46,9 +46,10 @@ def sample(s, c, weight, total, thresholds, probe, low, high, wet, now, row):
     row[k.GRAINS] = grains + rest * still2
     row[k.ENERGY] = energy + rest * (0.5 * (s.r * still1 * still1 + still2 * still2) + s.r * still1 * still2)
     row[k.COMPLEX] = 0.0
+    row[k.MARGIN] = 1.0
     if s.layers == 2:
         left, right = wet_span(c.h2, s.dry_depth, max(wet[0], GHOSTS), min(wet[1], n - GHOSTS))
-        row[k.COMPLEX] = row_nonhyperbolic(
+        row[k.COMPLEX], row[k.MARGIN] = row_hyperbolicity(
             c.h1, c.u1, c.v1, c.h2, c.u2, c.v2, s.r, s.dry_depth, margin, left, right
         )
 

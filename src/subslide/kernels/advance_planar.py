@@ -9,7 +9,7 @@ import math
 import numpy as np
 from numba import prange
 
-from ..diagnostics.budget import row_budget, row_nonhyperbolic
+from ..diagnostics.budget import row_budget, row_hyperbolicity
 from ..diagnostics.front import front_position
 from ..diagnostics.surface import largest_displacement
 from . import clock as k
@@ -52,10 +52,20 @@ from .span import (
 BLOCK = 16
 """Rows a block: few enough to share among cores, many enough that the row before it costs little."""
 
-PACE, SQUARE2, SHALLOWEST, RIM, ROW_ETA, ROW_OUTSIDE, ROW_WATER, ROW_GRAINS, ROW_ENERGY, ROW_COMPLEX = range(
-    10
-)
-ROW_COLUMNS = 10
+(
+    PACE,
+    SQUARE2,
+    SHALLOWEST,
+    RIM,
+    ROW_ETA,
+    ROW_OUTSIDE,
+    ROW_WATER,
+    ROW_GRAINS,
+    ROW_ENERGY,
+    ROW_COMPLEX,
+    ROW_MARGIN,
+) = range(11)
+ROW_COLUMNS = 11
 
 
 @inlined
@@ -94,7 +104,9 @@ def measure_row(s, c, j, walls, probe, inside, weight, total, span, row):
         0.5 * (s.r * still1 * still1 + still2 * still2) + s.r * still1 * still2
     )
     left, right = wet_span(h2, s.dry_depth, max(span[WET_LOW], GHOSTS), min(span[WET_HIGH], nx - GHOSTS))
-    row[ROW_COMPLEX] = row_nonhyperbolic(h1, u1, v1, h2, u2, v2, s.r, s.dry_depth, margin, left, right)
+    row[ROW_COMPLEX], row[ROW_MARGIN] = row_hyperbolicity(
+        h1, u1, v1, h2, u2, v2, s.r, s.dry_depth, margin, left, right
+    )
 
 
 @inlined
@@ -106,6 +118,7 @@ def collect(s, c, axis, thresholds, spans, rows, now, sample):
         sample[k.FRONT + m] = front_position(c.h2[axis[0]], c.h2[axis[1]], axis[2], stop, thresholds[m], s.dx)
     for column in range(k.ETA, k.COLUMNS):
         sample[column] = 0.0
+    sample[k.MARGIN] = 1.0
     for j in range(GHOSTS, rows.shape[0] - GHOSTS):
         sample[k.ETA] = max(sample[k.ETA], rows[j, ROW_ETA])
         sample[k.ETA_OUTSIDE] = max(sample[k.ETA_OUTSIDE], rows[j, ROW_OUTSIDE])
@@ -113,6 +126,7 @@ def collect(s, c, axis, thresholds, spans, rows, now, sample):
         sample[k.GRAINS] += rows[j, ROW_GRAINS]
         sample[k.ENERGY] += rows[j, ROW_ENERGY]
         sample[k.COMPLEX] += rows[j, ROW_COMPLEX]
+        sample[k.MARGIN] = min(sample[k.MARGIN], rows[j, ROW_MARGIN])
 
 
 @inlined

@@ -11,8 +11,8 @@ NOW, STOP, REST_FROM, REST_SINCE = range(4)
 SAMPLES, OUTCOME = range(2)
 
 # Columns of a sample.
-TIME, FRONT, ETA, ETA_OUTSIDE, GRAINS, WATER, ENERGY, COMPLEX = 0, 1, 4, 5, 6, 7, 8, 9
-COLUMNS = 10
+TIME, FRONT, ETA, ETA_OUTSIDE, GRAINS, WATER, ENERGY, COMPLEX, MARGIN = 0, 1, 4, 5, 6, 7, 8, 9, 10
+COLUMNS = 11
 
 SMALLEST_STEP = 1e-6
 """In units of dx / sqrt(g H2): no wave of a run that can finish is a million times faster than sqrt(g H2)."""
