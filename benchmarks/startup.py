@@ -54,7 +54,7 @@ def compile_times(dtypes, models=("radial", "plane")):
     rows = []
     for model in models:
         for dtype in dtypes:
-            command = [sys.executable, "-m", "subslide", "warm", f"{model}:2:{dtype}"]
+            command = [sys.executable, "-m", "subslide", "warm", f"{model}:{dtype}"]
             cold, warm = seconds_of(command), seconds_of(command)
             about = {"model": model, "dtype": dtype}
             rows += rows_of("compile", "cold", cold, "s", **about)

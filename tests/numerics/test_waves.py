@@ -5,7 +5,13 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from subslide.kernels.waves import approximate_speeds, discriminant, inner_speeds, outer_speeds
+from subslide.kernels.waves import (
+    approximate_speeds,
+    discriminant,
+    discriminant_without_shear,
+    inner_speeds,
+    outer_speeds,
+)
 
 depths = st.one_of(st.just(0.0), st.floats(1e-5, 20.0))
 speeds = st.floats(-3.0, 3.0)
@@ -104,3 +110,8 @@ def test_approximate_speeds_err_at_rest_as_published():
         exact = np.sqrt(half_width_squared) if r > 0 else 1.0
         assert near / fast == pytest.approx(outer, abs=0.006)
         assert np.sqrt(near_squared) / exact == pytest.approx(inner, abs=0.006)
+
+
+@given(st.floats(1e-6, 10), st.floats(1e-6, 10), st.floats(0, 0.999))
+def test_without_shear_the_discriminant_has_a_closed_form(h1, h2, r):
+    assert discriminant_without_shear(h1, h2, r) == pytest.approx(discriminant(h1, h2, 0.0, r), abs=1e-13)

@@ -1,7 +1,7 @@
 """Volumes, energy and the cells that lost hyperbolicity: sums over a row."""
 
 from ..kernels.jit import maximum, part, summed
-from ..kernels.waves import discriminant
+from ..kernels.waves import discriminant, discriminant_without_shear
 
 
 @summed
@@ -41,7 +41,7 @@ def row_hyperbolicity(h1, u1, v1, h2, u2, v2, r, dry_depth, margin, start, stop)
         dv = v1[i] - v2[i]
         wet = min(h1[i], h2[i]) > dry_depth
         sheared = discriminant(h1[i], h2[i], du * du + dv * dv, r)
-        still = discriminant(h1[i], h2[i], type(r)(0), r)
+        still = discriminant_without_shear(h1[i], h2[i], r)
         judged = wet and still > margin
         lost += 1.0 if wet and sheared < -margin else 0.0
         smallest = min(smallest, sheared / (still if judged else type(r)(1)) if judged else 1.0)

@@ -131,6 +131,17 @@ def discriminant(h1, h2, shear_squared, r):
 
 
 @inlined
+def discriminant_without_shear(h1, h2, r):
+    """Return `discriminant` for equal velocities, in closed form: 16 s (1 - 4 s)^2, s = (1-r) h1 h2 / (h1 + h2)^2."""
+    real = type(h1)
+    total = h1 + h2
+    scale = real(1) / (total if total > real(0) else real(1))
+    s = (real(1) - r) * (h1 * scale) * (h2 * scale)
+    rest = real(1) - real(4) * s
+    return real(16) * s * rest * rest
+
+
+@inlined
 def approximate_speeds(h1, u1, h2, u2, r):
     """Return the outer pair, and the centre and half-width squared of the inner pair, for r near 1 and little shear.
 
