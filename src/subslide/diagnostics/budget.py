@@ -1,6 +1,6 @@
 """Volumes, energy and the cells that lost hyperbolicity: sums over a row."""
 
-from ..kernels.jit import maximum, part, summed
+from ..kernels.jit import part, summed
 from ..kernels.waves import discriminant, discriminant_without_shear
 
 
@@ -25,15 +25,17 @@ def row_budget(h1, u1, v1, h2, u2, v2, weight, r, start, stop):
     return water, grains, energy
 
 
-@maximum
-def row_hyperbolicity(h1, u1, v1, h2, u2, v2, r, dry_depth, margin, start, stop):
+@summed
+def row_hyperbolicity(h1, u1, v1, h2, u2, v2, ratio, r, dry_depth, margin, start, stop):
     """Return how many of a row's cells start..stop-1 have complex speeds along their shear, and the smallest margin.
 
     Cells that are wet in both layers count. The margin of a cell is its discriminant over that without shear, each
     scaled to depths and shear of order 1: 1 without shear, 0 where two speeds meet, negative where they are complex.
+    `ratio` is scratch, as long as the row: a loop that finds a minimum does not vectorise, so it gets one of its own.
     """
+    one = type(r)(1)
+    zero = type(r)(0)
     lost = 0.0
-    smallest = 1.0
     first, count = part(start, stop)
     for k in range(count):
         i = k + first
@@ -42,7 +44,11 @@ def row_hyperbolicity(h1, u1, v1, h2, u2, v2, r, dry_depth, margin, start, stop)
         wet = min(h1[i], h2[i]) > dry_depth
         sheared = discriminant(h1[i], h2[i], du * du + dv * dv, r)
         still = discriminant_without_shear(h1[i], h2[i], r)
-        judged = wet and still > margin
-        lost += 1.0 if wet and sheared < -margin else 0.0
-        smallest = min(smallest, sheared / (still if judged else type(r)(1)) if judged else 1.0)
+        judged = (still if wet else zero) > margin
+        found = sheared / (still if judged else one)
+        ratio[i] = found if judged else one
+        lost += 1.0 if (sheared if wet else one) < -margin else 0.0
+    smallest = one
+    for k in range(count):
+        smallest = min(smallest, ratio[k + first])
     return lost, smallest

@@ -50,7 +50,7 @@ def sample(s, c, weight, total, thresholds, probe, low, high, wet, now, row):
     if s.layers == 2:
         left, right = wet_span(c.h2, s.dry_depth, max(wet[0], GHOSTS), min(wet[1], n - GHOSTS))
         row[k.COMPLEX], row[k.MARGIN] = row_hyperbolicity(
-            c.h1, c.u1, c.v1, c.h2, c.u2, c.v2, s.r, s.dry_depth, margin, left, right
+            c.h1, c.u1, c.v1, c.h2, c.u2, c.v2, c.ratio, s.r, s.dry_depth, margin, left, right
         )
 
 

@@ -105,7 +105,7 @@ def measure_row(s, c, j, walls, probe, inside, weight, total, span, row):
     )
     left, right = wet_span(h2, s.dry_depth, max(span[WET_LOW], GHOSTS), min(span[WET_HIGH], nx - GHOSTS))
     row[ROW_COMPLEX], row[ROW_MARGIN] = row_hyperbolicity(
-        h1, u1, v1, h2, u2, v2, s.r, s.dry_depth, margin, left, right
+        h1, u1, v1, h2, u2, v2, c.ratio[j], s.r, s.dry_depth, margin, left, right
     )
 
 

@@ -70,6 +70,7 @@ class Cells(NamedTuple):
     slow_y: np.ndarray
     fast_y: np.ndarray
     pace: np.ndarray  # fastest wave along x plus fastest along y
+    ratio: np.ndarray  # scratch of `row_hyperbolicity`
 
 
 class Side(NamedTuple):
