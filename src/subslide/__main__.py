@@ -204,7 +204,7 @@ def atlas(results, output):
     click.echo(str(atlas_of.write(Path(results))))
     click.echo(methods.report(Path(results)))
     if output:
-        methods.renew(Path(output), Path(results))
+        _renew(output, lambda page: methods.page(page, Path(results)))
 
 
 @cli.command()

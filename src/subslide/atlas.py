@@ -48,7 +48,7 @@ COLUMNS = {
     **{
         key: (schema.unit(key), schema.properties()[key]["description"])
         for key in RUN_KEYS
-        if key not in ("snapshot_times", "fields", "quantities")
+        if key not in ASIDE
     },
     "status": ("", "how the run ended; see runs.csv"),
     "status_detail": ("", "what ended the run, in words"),

@@ -4,11 +4,9 @@ from pathlib import Path
 
 import pandas as pd
 
-from subslide import atlas, guard
-from subslide.atomic import write_text
+from subslide import atlas, guard, marks
 from subslide.points import RUN_KEYS, Point, from_dict
 from subslide.results import Results
-from subslide.schema import ConfigError
 from subslide.verification import END, START
 
 
@@ -64,18 +62,10 @@ def unguarded(results: Results, table: pd.DataFrame) -> list[str]:
     return [name for name in table.loc[harmed, "id"] if not guard.regions_of(points[name])]
 
 
-def renew(page: Path, folder: Path) -> None:
-    """Nothing; the page of documentation holds the table of methods of a study between its two marks."""
-    text = page.read_text(encoding="utf-8")
-    if START not in text or END not in text:
-        raise ConfigError(
-            f"--output: {page} lacks the lines '{START}' and '{END}' that its table goes between"
-        )
+def page(text: str, folder: Path) -> str:
+    """The page `text` with the table of methods of a study between its two marks; ConfigError without these."""
     found = methods(atlas.read(folder))
-    rows = [list(found.columns), ["---"] * len(found.columns), *found.astype(str).to_numpy().tolist()]
-    lines = "\n".join("| " + " | ".join(row) + " |" for row in rows)
-    before, rest = text.split(START, 1)
-    write_text(page, f"{before}{START}\n\n{lines}\n\n{END}{rest.split(END, 1)[1]}")
+    return marks.renewed(text, START, END, [list(found.columns), *found.astype(str).to_numpy().tolist()])
 
 
 def _quantile(values: pd.Series, share: float) -> str:
