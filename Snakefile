@@ -3,10 +3,11 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from subslide import exact, figures, ledger, source_hash
-from subslide.config import make_study
-from subslide.schema import ConfigError
-from subslide.work_precision.problems import problems
+from subslide import exact, figures, source_hash
+from subslide.keys.schema import ConfigError
+from subslide.study import batches as ledger
+from subslide.study.config import make_study
+from subslide.tables._problems import problems
 
 if not workflow.overwrite_configfiles:  # never merged with a file that the user gives
 

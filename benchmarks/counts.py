@@ -111,8 +111,8 @@ def step_counts(order, n=6):
     import numpy as np
 
     from subslide.kernels import planar, planar_faces
+    from subslide.kernels.active import LAST, SPANS, WET_LAST
     from subslide.kernels.arrays import GHOSTS, Cells, Fluxes, Marks, Side
-    from subslide.kernels.span import LAST, SPANS, WET_LAST
 
     reads, writes = set(), set()
     values = {

@@ -1,7 +1,6 @@
 """Settings that hold for every test, and the long lane."""
 
-import os
-
+import numba  # noqa: F401 - loaded before a command line under test asks for a number of threads of its own
 import pytest
 from hypothesis import settings
 
@@ -23,14 +22,3 @@ def pytest_collection_modifyitems(config, items):
     for item in items:
         if "long" in item.keywords:
             item.add_marker(pytest.mark.skip(reason="long lane: make test-all"))
-
-
-@pytest.fixture(autouse=True)
-def _threads_of_the_command_line():
-    """Nothing; the number of threads that a command line sets stays with its test: numba refuses another one later."""
-    before = os.environ.get("NUMBA_NUM_THREADS")
-    yield
-    if before is None:
-        os.environ.pop("NUMBA_NUM_THREADS", None)
-    else:
-        os.environ["NUMBA_NUM_THREADS"] = before

@@ -8,9 +8,9 @@ from pathlib import Path
 import click
 
 import subslide
-from subslide import schema
+from subslide.keys import schema
+from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS
-from subslide.schema import ConfigError
 
 BAD_INPUT, FAULT, INTERRUPTED = 2, 1, 130
 
@@ -85,7 +85,7 @@ def run(config, threads, output, **options):
 
 def caution(points) -> None:
     """Nothing; stderr says once of each unsafe region that any of the points lies in it."""
-    from subslide import guard
+    from subslide.study import cautions as guard
 
     for line in guard.cautions(points):
         click.echo(f"subslide: {line}", err=True)
@@ -95,7 +95,7 @@ def caution(points) -> None:
 @click.argument("config", nargs=-1, required=True)
 def check(config):
     """Check study files, CONFIG..., and print one line for each, with cautions where runs lie in unsafe regions."""
-    from subslide.config import read_study
+    from subslide.study.config import read_study
 
     for path in config:
         study = read_study(path)
@@ -137,7 +137,7 @@ def warm(kernel):
 @click.argument("results")
 def tables(results):
     """Write the tables of a study from its records; RESULTS is the study's folder, such as results/paper."""
-    from subslide import tables as tables_of
+    from subslide.tables import runs as tables_of
 
     for path in tables_of.write(Path(results)):
         click.echo(str(path))
@@ -147,7 +147,7 @@ def tables(results):
 @click.argument("results")
 def errors(results):
     """Write the table of errors against exact solutions of a study; RESULTS is the study's folder."""
-    from subslide import errors as errors_of
+    from subslide.tables import errors as errors_of
 
     click.echo(str(errors_of.write(Path(results))))
 
@@ -160,7 +160,7 @@ def verify(results, output):
 
     Exit status: 0 if every required order is reached and grains at rest are still; 1 if not; 2 for bad input.
     """
-    from subslide import verification
+    from subslide.pages import verification
 
     text, missed = verification.report(Path(results))
     click.echo(text)
@@ -185,7 +185,7 @@ def work_precision(results, output):
 
     Writes RESULTS/tables/work_precision.csv and cheapest.csv, and prints the cheapest choices.
     """
-    from subslide import work_precision as chart
+    from subslide.pages import _work_precision_old as chart
 
     paths, text = chart.write(Path(results))
     click.echo("\n".join([text, "", *map(str, paths)]))
@@ -198,8 +198,8 @@ def work_precision(results, output):
 @click.option("-o", "--output", metavar="FILE.md", help="page whose table of the last run is written anew")
 def atlas(results, output):
     """Write the stability atlas of a study and print how each method did; RESULTS is the study's folder."""
-    from subslide import atlas as atlas_of
-    from subslide import methods
+    from subslide.pages import stability as methods
+    from subslide.tables import atlas as atlas_of
 
     click.echo(str(atlas_of.write(Path(results))))
     click.echo(methods.report(Path(results)))
@@ -214,7 +214,8 @@ def cfl(results):
 
     RESULTS is the study's folder, such as results/stability.
     """
-    from subslide import courant, jobs
+    from subslide import jobs
+    from subslide.tables import cfl as courant
 
     jobs.set_threads(1)
     click.echo(str(courant.write(Path(results))))
@@ -228,7 +229,7 @@ def cfl(results):
 @click.option("-o", "--output", required=True, metavar="FOLDER", help="folder for NAME.png and NAME.svg")
 def figure(name, results, output):
     """Draw one figure, NAME, of a study as PNG and SVG."""
-    from subslide import drawing
+    from subslide.figures import _save as drawing
 
     for path in drawing.save(name, Path(results), Path(output)):
         click.echo(str(path))
@@ -241,7 +242,7 @@ def claims(results):
 
     Writes RESULTS/tables/claims.csv and claims.html, and prints the same as text.
     """
-    from subslide import claims as claims_of
+    from subslide.tables import claims as claims_of
 
     paths, text = claims_of.write(Path(results))
     click.echo("\n".join([text, "", *map(str, paths)]))
@@ -250,8 +251,8 @@ def claims(results):
 @cli.command()
 def docs():
     """Write the pages of documentation that follow from the code, in the repository that is the current folder."""
-    from subslide import docs as pages_of
-    from subslide.atomic import write_text
+    from subslide.files import write_text
+    from subslide.pages import documentation as pages_of
 
     for path, text in pages_of.pages().items():
         if not Path(path).parent.is_dir():
@@ -262,7 +263,7 @@ def docs():
 
 def _renew(path: str, renewed) -> None:
     """Nothing; the page at `path` is what `renewed` makes of its text."""
-    from subslide.atomic import write_text
+    from subslide.files import write_text
 
     try:
         page = Path(path).read_text(encoding="utf-8")

@@ -5,8 +5,8 @@ import hashlib
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent
-SOLVER = ("kernels", "models", "scenes", "exact", "diagnostics", "solver.py", "fields.py")
-"""Parts whose code is compiled, or decides which code is."""
+SOLVER = ("kernels", "fields.py")
+"""Parts whose code is compiled, or is read by code that is."""
 
 DRAWING = ("figures", "drawing.py", "docs.py", "claims", "laboratory.py", "guard.py", "work_precision")
 """Parts that only draw, judge or describe what is solved: a change here never changes a record or a table."""
@@ -20,7 +20,7 @@ def source_hash(part: str = "results", figure: str = "") -> str:
     but the modules of other figures than `figure`).
     """
     digest = hashlib.sha256()
-    for path in sorted([*PACKAGE.rglob("*.py"), *PACKAGE.glob("*.json")]):
+    for path in sorted([*PACKAGE.rglob("*.py"), *PACKAGE.rglob("*.json")]):
         name = path.relative_to(PACKAGE)
         if _belongs(name, part, figure):
             body = path.read_bytes()

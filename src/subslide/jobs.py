@@ -10,12 +10,14 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from subslide import config, scene_options, scenes, schema
-from subslide.atomic import write_text
-from subslide.models.choice import model_reason
+from subslide import scenes
+from subslide.files import write_text
+from subslide.keys import schema
+from subslide.keys.schema import ConfigError
 from subslide.points import Point, from_dict
-from subslide.reading import read_yaml
-from subslide.schema import ConfigError
+from subslide.study import config, scene_options
+from subslide.study.choice import model_reason
+from subslide.study.yaml_files import read_yaml
 
 
 def point_of(path: str | None, options: dict[str, str]) -> Point:
@@ -50,13 +52,15 @@ def check_output(path: str, inputs: list[str]) -> None:
 
 
 def set_threads(threads: int) -> None:
-    """Nothing; numba, which must not be loaded yet, will use this many threads."""
-    os.environ["NUMBA_NUM_THREADS"] = str(threads)
+    """Make numba use this many threads, unless it is loaded: then the number is settled, and `solve` stays within."""
+    if "numba" not in sys.modules:
+        os.environ["NUMBA_NUM_THREADS"] = str(threads)
 
 
 def run(point: Point, threads: int, output: str) -> str:
     """Line that tells the outcome of a run, whose record is then at `output`."""
-    from subslide import records, solver
+    from subslide import solver
+    from subslide.records import netcdf as records
 
     result = solver.solve(point, threads=threads, progress=_progress() if sys.stderr.isatty() else None)
     records.write(output, [result])
@@ -65,7 +69,9 @@ def run(point: Point, threads: int, output: str) -> str:
 
 def batch(spec: str, threads: int, output: str) -> Iterator[str]:
     """Lines, one as each run of a batch file ends; then its record is at `output`, its SHA-256 in `output`.sha256."""
-    from subslide import records, solver, thinning
+    from subslide import solver
+    from subslide.records import netcdf as records
+    from subslide.records import thinning
 
     points = read_batch(spec)
     results = []

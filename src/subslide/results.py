@@ -8,8 +8,9 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from subslide import bands, records
-from subslide.schema import ConfigError
+from subslide.keys.schema import ConfigError
+from subslide.records import netcdf as records
+from subslide.tables import bands
 
 
 class Results:

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numba
 import numpy as np
 
-from .fields import FRONT_THRESHOLDS, STATUSES
-from .kernels import clock as k
-from .models.build import build
-from .models.choice import resolve_model
-from .points import Point, paper_times
+from subslide.fields import FRONT_THRESHOLDS, STATUSES
+from subslide.kernels import clock as k
+from subslide.models.build import build
+from subslide.points import Point, paper_times
+from subslide.study.choice import resolve_model
 
 DRY_DEPTH = 1e-6
 """Over H2: below it a layer counts as dry (HLL instead of IFCP) and velocities are cut off smoothly."""

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from made_up import RESOLVED, MadeUpResults, grid
 
-from subslide import figures, laboratory
+from subslide import figures
 from subslide.figures import _slices, _style, _words
+from subslide.laboratory import lube as laboratory
 
 NAMES = [name for name in figures.names() if name.startswith("fig")]
 """Figures of collapses; those of verification are in test_verify.py."""

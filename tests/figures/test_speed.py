@@ -7,9 +7,9 @@ import pandas as pd
 import pytest
 
 from subslide import figures
-from subslide.config import make_study
 from subslide.figures import work_precision
-from subslide.work_precision import table
+from subslide.study.config import make_study
+from subslide.tables import work_precision as table
 
 METHODS = {
     "default": {"model": "radial", "scheme": "ifcph", "order": 2, "seconds": 1e-3, "error": 0.04},

@@ -8,8 +8,8 @@ import pytest
 import xarray as xr
 
 from subslide import exact, figures
-from subslide.config import make_study
 from subslide.points import options_text, to_dict
+from subslide.study.config import make_study
 
 CASES = [
     {"scene": "standing_wave", "boundary": "wall", "r": 0.4},

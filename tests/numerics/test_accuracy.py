@@ -5,9 +5,9 @@ import functools
 import numpy as np
 import pytest
 
-from subslide.convergence import estimate
 from subslide.points import Point
 from subslide.solver import solve
+from subslide.tables._convergence import estimate
 
 TIMES = (0.08, 0.16, 0.24)
 CORNERS = [

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from states import advance, inner, plane, scene
 
-from subslide import config
 from subslide.kernels.printed import AS_PRINTED, braking, carried
 from subslide.models.build import scaled
 from subslide.solver import solve
+from subslide.study import config
 
 
 def solved(**keys):

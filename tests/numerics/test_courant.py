@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from subslide import courant
 from subslide.points import Point
+from subslide.tables import cfl as courant
 
 WAVE = courant.CASES[0]
 COLUMN = courant.CASES[4]._replace(cells=40)

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from states import advance, axial, inner
 
-from subslide import config
 from subslide.exact import dam_break, standing_wave
 from subslide.exact._bessel import bessel, zero_of_j1
 from subslide.exact.paraboloid import depth, radius, ring_mean
 from subslide.solver import solve
+from subslide.study import config
 
 END = np.sqrt((2.69**2 - 1) / 2)  # R / R0 = 2.69
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from subslide import exact, solver
-from subslide.config import make_point
 from subslide.exact import standing_wave
+from subslide.study.config import make_point
 
 ROUND, LINE = "round", "line"
 SCALE = math.sqrt(0.0705 / (9.81 * 0.56))

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from states import advance, inner
 
-from subslide import config, scenes
+from subslide import scenes
 from subslide.exact import slide
-from subslide.models import choice
 from subslide.models.build import build
 from subslide.models.grid import make_grid
 from subslide.scenes import _discs, cylinder
 from subslide.solver import solve
+from subslide.study import choice, config
 
 HALF = 20
 DX = 0.6 / (2 * HALF) / 0.0705

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 from states import advance, axial, plane
 from test_waves import matrix
 
-from subslide import config
 from subslide.exact import shear
 from subslide.kernels import clock as k
 from subslide.kernels import waves
 from subslide.solver import solve
+from subslide.study import config
 
 LAYERS = [(1.0, 0.8), (0.3, 0.4), (4.0, 0.6), (0.1, 0.98), (1.0, 0.05)]
 

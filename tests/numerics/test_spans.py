@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from states import scene
 
 from subslide.kernels import clock as k
+from subslide.kernels.active import FIRST, LAST, WET_FIRST, WET_LAST
 from subslide.kernels.arrays import Cells, Marks, Side, allocate
 from subslide.kernels.axial import faces, water_faces
 from subslide.kernels.edge import edge_fluxes, water_edge_fluxes
-from subslide.kernels.span import FIRST, LAST, WET_FIRST, WET_LAST
 from subslide.kernels.waves import outer_bounds, outer_speeds, water_speeds
 from subslide.models.build import build
 from subslide.points import Point

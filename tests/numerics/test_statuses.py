@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from states import advance, axial
 
-from subslide.config import make_point
 from subslide.fields import STATUSES
 from subslide.kernels import clock as k
 from subslide.solver import ENDED, solve
+from subslide.study.config import make_point
 
 SHEAR = {"scene": "shear", "boundary": "periodic", "delta": 0, "cells": 60, "t_end": 0.1}
 REACHED = {

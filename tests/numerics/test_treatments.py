@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from states import advance, axial, inner, plane
 
-from subslide import config
 from subslide.exact.shear import base, critical_shear, growth_rate
 from subslide.kernels import clock as k
-from subslide.kernels.interlayer import TREATMENTS, is_complex
+from subslide.kernels.hyperbolicity import TREATMENTS, is_complex
 from subslide.solver import solve
+from subslide.study import config
 
 R = 0.8
 EDGES = np.arange(41) * 0.05

@@ -3,10 +3,15 @@
 import numpy as np
 import pytest
 
-from subslide import atlas, config, exact, ledger, records, tables
+from subslide import exact
 from subslide.__main__ import main
 from subslide.jobs import read_batch
-from subslide.verification import END, START
+from subslide.pages.verification import END, START
+from subslide.records import netcdf as records
+from subslide.study import batches as ledger
+from subslide.study import config
+from subslide.tables import atlas
+from subslide.tables import runs as tables
 
 COLUMN = {"model": "radial", "boundary": "wall", "figures": "none"}
 

@@ -5,10 +5,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from subslide import bands, config, ledger, records, tables
-from subslide.convergence import CONVERGING, NOT_CONVERGED
 from subslide.jobs import read_batch
+from subslide.records import netcdf as records
 from subslide.results import Results
+from subslide.study import batches as ledger
+from subslide.study import config
+from subslide.tables import bands
+from subslide.tables import runs as tables
+from subslide.tables._convergence import CONVERGING, NOT_CONVERGED
 
 FINAL = 0.14
 """m, limit of the made-up deposits, whose error is the cell size."""

@@ -6,11 +6,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from subslide import claims, laboratory
 from subslide.__main__ import main
-from subslide.claims import page
-from subslide.claims.evidence import THRESHOLDS, WAVES, Evidence
+from subslide.laboratory import lube as laboratory
 from subslide.points import PAPER_TIMES
+from subslide.tables import claims
+from subslide.tables._claims import page
+from subslide.tables._claims.evidence import THRESHOLDS, WAVES, Evidence
 
 DEPTHS, RATIOS = (1.0, 2.0, 10.0), (0.0, 0.2, 0.4, 0.6, 0.8)
 RADIUS, A_2 = 0.0705, 0.56

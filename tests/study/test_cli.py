@@ -7,10 +7,10 @@ import time
 
 import pytest
 
-from subslide import schema
 from subslide.__main__ import main
+from subslide.keys import schema
 from subslide.points import RUN_KEYS
-from subslide.records import read
+from subslide.records.netcdf import read
 
 QUICK = ("--model", "radial", "--cells", "20", "--t-end", "0.02")
 BAD = {
@@ -132,7 +132,9 @@ def test_a_warm_run_starts_light():
 
 
 def test_a_batch_leaves_a_checksum_beside_its_record(capsys):
-    from subslide import config, jobs, ledger
+    from subslide import jobs
+    from subslide.study import batches as ledger
+    from subslide.study import config
 
     study = config.make_study({"study": "t", "a_H": [1, 2], "model": "radial", "cells": 20, "t_end": 0.02})
     from pathlib import Path

@@ -4,9 +4,12 @@ import re
 
 import pytest
 
-from subslide import config, docs, figures, schema
+from subslide import figures
+from subslide.keys import schema
+from subslide.keys.schema import ConfigError
+from subslide.pages import documentation as docs
 from subslide.points import RUN_KEYS, Point
-from subslide.schema import ConfigError
+from subslide.study import config
 
 MISTAKES = {
     "r: 1.5": ("r: 1.5", "from 0 to below 1"),

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from subslide.convergence import CONVERGING, NOT_CONVERGED, SAFETY, estimate
+from subslide.tables._convergence import CONVERGING, NOT_CONVERGED, SAFETY, estimate
 
 limits = st.floats(0.1, 10)
 orders = st.floats(0.4, 4)

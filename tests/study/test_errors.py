@@ -4,10 +4,15 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from subslide import config, errors, exact, ledger, records, verification
+from subslide import exact
 from subslide.__main__ import main
 from subslide.jobs import read_batch
-from subslide.schema import ConfigError
+from subslide.keys.schema import ConfigError
+from subslide.pages import verification
+from subslide.records import netcdf as records
+from subslide.study import batches as ledger
+from subslide.study import config
+from subslide.tables import errors
 
 WAVE = {
     "scene": "standing_wave",

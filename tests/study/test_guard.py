@@ -5,11 +5,14 @@ import itertools
 import numpy as np
 import pytest
 
-from subslide import config, energy, exact, guard
+from subslide import exact
 from subslide.__main__ import main
-from subslide.atlas import GAINED
 from subslide.points import Point
 from subslide.solver import solve
+from subslide.study import cautions as guard
+from subslide.study import config
+from subslide.tables import _energy as energy
+from subslide.tables.atlas import GAINED
 
 REGIONS = {region.name: region for region in guard.REGIONS}
 

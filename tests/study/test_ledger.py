@@ -4,9 +4,11 @@ import json
 
 import pytest
 
-from subslide import config, jobs, ledger
+from subslide import jobs
+from subslide.keys.schema import ConfigError
 from subslide.points import Point
-from subslide.schema import ConfigError
+from subslide.study import batches as ledger
+from subslide.study import config
 
 
 def study(**axes):

@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from subslide import config, points
+from subslide import points
 from subslide.points import Point
+from subslide.study import config
 
 OTHER = {
     "a_H": 2.0, "a_2": 1.0, "r": 0.1, "delta": 30.0, "radius": 1.0, "g": 9.8, "scene": "other",

@@ -12,9 +12,11 @@ import xarray as xr
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from subslide import fields, layout, records, source_hash
-from subslide.atomic import replacing, write_json
+from subslide import fields, source_hash
+from subslide.files import replacing, write_json
 from subslide.points import Point
+from subslide.records import netcdf as records
+from subslide.records import variables as layout
 from subslide.results import open_record, trimmed
 
 PROMISED = {

@@ -7,12 +7,16 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from subslide import config, ledger, points, schema, tables
+from subslide import points
 from subslide.__main__ import main
 from subslide.jobs import read_batch
-from subslide.records import read
+from subslide.keys import schema
+from subslide.keys.schema import ConfigError
+from subslide.records.netcdf import read
 from subslide.scenes import NAMES, load
-from subslide.schema import ConfigError
+from subslide.study import batches as ledger
+from subslide.study import config
+from subslide.tables import runs as tables
 
 MISTAKES = {
     ("elipse", ""): ("scene: elipse is not allowed", "did you mean 'ellipse'?"),

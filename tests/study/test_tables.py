@@ -4,9 +4,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from subslide import config, ledger, records, tables
 from subslide.jobs import read_batch
+from subslide.records import netcdf as records
 from subslide.results import Results
+from subslide.study import batches as ledger
+from subslide.study import config
+from subslide.tables import runs as tables
 
 
 @pytest.fixture

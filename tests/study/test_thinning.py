@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
-from subslide import fields, records, thinning
+from subslide import fields
 from subslide.points import Point
+from subslide.records import netcdf as records
+from subslide.records import thinning
 from subslide.results import open_record, trimmed
 
 

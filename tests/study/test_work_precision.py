@@ -6,12 +6,18 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from subslide import config, ledger, records, work_precision
 from subslide.__main__ import main
 from subslide.jobs import read_batch
+from subslide.keys.schema import ConfigError
+from subslide.pages import _work_precision_old as work_precision
+from subslide.pages import work_precision as quotes
 from subslide.points import PAPER_RADIUS, Point
-from subslide.schema import ConfigError
-from subslide.work_precision import cheapest, problems, quotes, table
+from subslide.records import netcdf as records
+from subslide.study import batches as ledger
+from subslide.study import config
+from subslide.tables import _problems as problems
+from subslide.tables import cheapest
+from subslide.tables import work_precision as table
 
 SWEEP = {
     "study": "t",

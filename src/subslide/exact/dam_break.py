@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from . import friction_number, frictionless, half_box, in_metres, scaled
+from subslide.exact import friction_number, frictionless, half_box, in_metres, scaled
 
 DEFAULTS = {"layer": "grains", "downstream": 0.0}
 """Options of the scene that a point leaves out."""

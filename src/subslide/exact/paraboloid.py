@@ -5,7 +5,7 @@ Thacker (1981, J. Fluid Mech. 107, 499) gives the family of such solutions, in a
 
 import numpy as np
 
-from . import frictionless, in_metres, scaled
+from subslide.exact import frictionless, in_metres, scaled
 
 
 def radius(t, h0=1.0, R0=1.0, g=1.0):

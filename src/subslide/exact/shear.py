@@ -16,7 +16,7 @@ import math
 
 import numpy as np
 
-from . import frictionless, half_box, in_metres, scaled
+from subslide.exact import frictionless, half_box, in_metres, scaled
 
 DEFAULTS = {"shear": 1.2, "amplitude": 1e-4, "mode": 1, "drift": 0.0}
 """Options of the scene that a point leaves out."""

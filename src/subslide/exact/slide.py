@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from . import friction_number, half_box, in_metres, scaled
+from subslide.exact import friction_number, half_box, in_metres, scaled
 
 DEFAULTS = {"speed": 1.0}
 """Options of the scene that a point leaves out."""

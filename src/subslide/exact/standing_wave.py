@@ -9,8 +9,8 @@ import math
 
 import numpy as np
 
-from . import frictionless, half_box, in_metres, scaled
-from ._bessel import bessel, zero_of_j1
+from subslide.exact import frictionless, half_box, in_metres, scaled
+from subslide.exact._bessel import bessel, zero_of_j1
 
 DEFAULTS = {"kind": "surface", "shape": "line", "amplitude": 1e-5, "mode": 2}
 """Options of the scene that a point leaves out."""

@@ -5,9 +5,9 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from subslide import atlas
 from subslide.figures import _style, _words
 from subslide.points import Point
+from subslide.tables import atlas
 
 USUAL = {key: getattr(Point(), key) for key in atlas.VARIANTS}
 SCALE = (0.0, 0.3)

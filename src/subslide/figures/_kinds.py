@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.lines import Line2D
 
-from subslide import convergence
 from subslide.figures import _slices
+from subslide.tables import _convergence as convergence
 
 PAIR = ("paper", "resolved")
 """Numerics that are drawn together where a study has both."""

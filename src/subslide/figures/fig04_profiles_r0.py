@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from subslide import fields, laboratory
+from subslide import fields
 from subslide.figures import _profiles, _slices, _style, _words
+from subslide.laboratory import lube as laboratory
 
 TITLE = "Profiles of the grains at r = 0, beside the laboratory runout law"
 CATEGORY = "1 Shape of the grains"

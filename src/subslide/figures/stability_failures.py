@@ -2,9 +2,9 @@
 
 from matplotlib.lines import Line2D
 
-from subslide import atlas
 from subslide.figures import _atlas, _style, _words
 from subslide.points import Point
+from subslide.tables import atlas
 
 TITLE = "What failure looks like"
 CATEGORY = "8 Stability"

@@ -6,7 +6,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
 
 from subslide.figures import _style, _words
-from subslide.work_precision.table import reached
+from subslide.tables.work_precision import reached
 
 TITLE = "Speed against accuracy"
 CATEGORY = "7 Verification"

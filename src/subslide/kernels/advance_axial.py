@@ -4,12 +4,10 @@ import math
 
 from numba import prange
 
-from ..diagnostics.budget import row_budget, row_hyperbolicity
-from ..diagnostics.front import front_position
-from ..diagnostics.surface import largest_displacement
-from . import clock as k
-from .arrays import GHOSTS
-from .axial import (
+from subslide.kernels import clock as k
+from subslide.kernels.active import grain_span, moved_span, reached, split, water_may_be_alone, wet_span
+from subslide.kernels.arrays import GHOSTS
+from subslide.kernels.axial import (
     cell_speeds,
     edges,
     faces,
@@ -22,11 +20,13 @@ from .axial import (
     water_edges,
     water_faces,
 )
-from .boundary import OPEN, PERIODIC
-from .interlayer import judged
-from .jit import inlined, launch
-from .reduce import extremes
-from .span import grain_span, moved_span, reached, split, water_may_be_alone, wet_span
+from subslide.kernels.boundary import OPEN, PERIODIC
+from subslide.kernels.hyperbolicity import judged
+from subslide.kernels.jit import inlined, launch
+from subslide.kernels.measures.budget import row_budget, row_hyperbolicity
+from subslide.kernels.measures.front import front_position
+from subslide.kernels.measures.surface import largest_displacement
+from subslide.kernels.reduce import extremes
 
 
 @inlined

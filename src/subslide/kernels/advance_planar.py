@@ -9,28 +9,8 @@ import math
 import numpy as np
 from numba import prange
 
-from ..diagnostics.budget import row_budget, row_hyperbolicity
-from ..diagnostics.front import front_position
-from ..diagnostics.surface import largest_displacement
-from . import clock as k
-from .arrays import GHOSTS
-from .boundary import OPEN, PERIODIC, join_plane
-from .interlayer import judged
-from .jit import driver, inlined, launch
-from .planar import (
-    cell_speeds,
-    edges,
-    fill_ghosts,
-    fill_stuck,
-    marks,
-    turned,
-    update,
-    water_cell_speeds,
-    water_edges,
-)
-from .planar_faces import faces
-from .reduce import extremes, largest, smallest
-from .span import (
+from subslide.kernels import clock as k
+from subslide.kernels.active import (
     FIRST,
     HIGH,
     LAST,
@@ -48,6 +28,26 @@ from .span import (
     wet_span,
     widen,
 )
+from subslide.kernels.arrays import GHOSTS
+from subslide.kernels.boundary import OPEN, PERIODIC, join_plane
+from subslide.kernels.hyperbolicity import judged
+from subslide.kernels.jit import driver, inlined, launch
+from subslide.kernels.measures.budget import row_budget, row_hyperbolicity
+from subslide.kernels.measures.front import front_position
+from subslide.kernels.measures.surface import largest_displacement
+from subslide.kernels.planar import (
+    cell_speeds,
+    edges,
+    fill_ghosts,
+    fill_stuck,
+    marks,
+    turned,
+    update,
+    water_cell_speeds,
+    water_edges,
+)
+from subslide.kernels.planar_faces import faces
+from subslide.kernels.reduce import extremes, largest, smallest
 
 BLOCK = 16
 """Rows a block: few enough to share among cores, many enough that the row before it costs little."""

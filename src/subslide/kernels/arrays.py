@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .jit import inlined
+from subslide.kernels.jit import inlined
 
 GHOSTS = 2
 """The slope in the first ghost cell needs the second."""

@@ -5,18 +5,18 @@ one over the size of a cell: radius and 1 / (radius dx) for round scenes, 1 and 
 start..stop-1 count from the smallest index that they need.
 """
 
-from .arrays import GHOSTS, is_general
-from .boundary import WALL, copied_after, copied_before, join
-from .edge import edge_fluxes, grain_edge_fluxes, water_edge_fluxes
-from .friction import COULOMB, further
-from .friction.coulomb import head, holds
-from .interlayer import FRICTION, rub
-from .jit import inlined, part, unsigned
-from .positivity import limit, share
-from .printed import braking
-from .reconstruct import depth_slopes, grain_slopes, mc, rates
-from .velocity import velocity
-from .waves import chosen_bounds, grain_speeds, water_speeds
+from subslide.kernels.arrays import GHOSTS, is_general
+from subslide.kernels.boundary import WALL, copied_after, copied_before, join
+from subslide.kernels.edge import edge_fluxes, grain_edge_fluxes, water_edge_fluxes
+from subslide.kernels.friction import COULOMB, further
+from subslide.kernels.friction.coulomb import head, holds
+from subslide.kernels.hyperbolicity import FRICTION, rub
+from subslide.kernels.jit import inlined, part, unsigned
+from subslide.kernels.positivity import limit, share
+from subslide.kernels.printed import braking
+from subslide.kernels.reconstruct import depth_slopes, grain_slopes, mc, rates
+from subslide.kernels.velocity import velocity
+from subslide.kernels.waves import chosen_bounds, grain_speeds, water_speeds
 
 
 @inlined

@@ -1,7 +1,7 @@
 """Ends of a row of padded cells: what the ghosts copy."""
 
-from .arrays import GHOSTS
-from .jit import inlined
+from subslide.kernels.arrays import GHOSTS
+from subslide.kernels.jit import inlined
 
 BOUNDARIES = {"open": 0, "wall": 1, "periodic": 2}
 OPEN, WALL, PERIODIC = BOUNDARIES.values()

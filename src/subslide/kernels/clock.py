@@ -1,6 +1,6 @@
 """Time: the next step, and why a loop of steps ended."""
 
-from .jit import inlined
+from subslide.kernels.jit import inlined
 
 RUNNING, REACHED, AT_REST, FRONT_AT_EDGE, NOT_FINITE, NEGATIVE, COLLAPSED, FULL, SHEARED = range(9)
 

@@ -5,12 +5,12 @@ State normal to the edge, scaled (g = 1): depths h1, h2 and velocities u1, u2; l
 
 import math
 
-from .arrays import is_general
-from .interlayer import takes_hll
-from .jit import inlined
-from .viscosity import ROE, RUSANOV, coefficients, hll, rusanov
-from .viscosity.roe import roe_viscosity
-from .waves import chosen_speeds, water_speeds
+from subslide.kernels.arrays import is_general
+from subslide.kernels.hyperbolicity import takes_hll
+from subslide.kernels.jit import inlined
+from subslide.kernels.viscosity import ROE, RUSANOV, coefficients, hll, rusanov
+from subslide.kernels.viscosity.roe import roe_viscosity
+from subslide.kernels.waves import chosen_speeds, water_speeds
 
 
 @inlined

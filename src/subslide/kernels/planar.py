@@ -4,18 +4,18 @@ Edge (j, k) of `fx` lies between the padded cells k + 1 and k + 2 of the padded 
 Loops over columns start..stop-1 count from the smallest index that they need.
 """
 
-from .arrays import GHOSTS, Side, is_general
-from .boundary import WALL, copied_after, copied_before
-from .edge import edge_fluxes, water_edge_fluxes
-from .friction import COULOMB, further
-from .friction.coulomb import head, holds
-from .interlayer import FRICTION, rub
-from .jit import inlined, part, unsigned
-from .positivity import donor, limit, share
-from .printed import braking, carried
-from .span import joint, joint_wet
-from .velocity import norm, velocity
-from .waves import chosen_bounds, water_speeds
+from subslide.kernels.active import joint, joint_wet
+from subslide.kernels.arrays import GHOSTS, Side, is_general
+from subslide.kernels.boundary import WALL, copied_after, copied_before
+from subslide.kernels.edge import edge_fluxes, water_edge_fluxes
+from subslide.kernels.friction import COULOMB, further
+from subslide.kernels.friction.coulomb import head, holds
+from subslide.kernels.hyperbolicity import FRICTION, rub
+from subslide.kernels.jit import inlined, part, unsigned
+from subslide.kernels.positivity import donor, limit, share
+from subslide.kernels.printed import braking, carried
+from subslide.kernels.velocity import norm, velocity
+from subslide.kernels.waves import chosen_bounds, water_speeds
 
 
 @inlined

@@ -1,9 +1,9 @@
 """Second order in the plane: the states at a cell's four faces."""
 
-from .arrays import Side
-from .friction.coulomb import holds
-from .jit import inlined, part
-from .reconstruct import depth_slopes, grain_slopes, mc, rates
+from subslide.kernels.arrays import Side
+from subslide.kernels.friction.coulomb import holds
+from subslide.kernels.jit import inlined, part
+from subslide.kernels.reconstruct import depth_slopes, grain_slopes, mc, rates
 
 
 @inlined

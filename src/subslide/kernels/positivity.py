@@ -1,6 +1,6 @@
 """Depths stay non-negative by limiting what leaves a cell, never by clipping (clipping makes mass)."""
 
-from .jit import inlined
+from subslide.kernels.jit import inlined
 
 
 @inlined

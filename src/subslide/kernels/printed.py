@@ -1,10 +1,10 @@
 """Formulas of the paper taken literally, beside what is used in their place: to see what they do."""
 
-from .arrays import is_general
-from .friction.coulomb import coulomb
-from .jit import inlined
-from .positivity import donor
-from .velocity import velocity
+from subslide.kernels.arrays import is_general
+from subslide.kernels.friction.coulomb import coulomb
+from subslide.kernels.jit import inlined
+from subslide.kernels.positivity import donor
+from subslide.kernels.velocity import velocity
 
 AS_PRINTED = {"none": 0, "friction": 1, "upwinding": 2}
 NONE, FRICTION, UPWINDING = AS_PRINTED.values()

@@ -6,7 +6,7 @@ flat surface over a slope stays flat.
 
 import math
 
-from .jit import inlined
+from subslide.kernels.jit import inlined
 
 
 @inlined

@@ -1,6 +1,6 @@
 """Largest and smallest of a part of a row."""
 
-from .jit import maximum, part
+from subslide.kernels.jit import maximum, part
 
 
 @maximum

@@ -6,8 +6,8 @@ Variables are scaled (g = 1), so the squared speed of a layer alone is its depth
 
 import math
 
-from .arrays import is_general
-from .jit import inlined
+from subslide.kernels.arrays import is_general
+from subslide.kernels.jit import inlined
 
 SPEEDS = {"exact": 0, "approximate": 1}
 EXACT, APPROXIMATE = SPEEDS.values()

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from ..kernels.advance_axial import advance_axial
-from ..kernels.arrays import GHOSTS, Cells, Fluxes, Marks, Side, allocate
-from .limits import LOST_GRAINS, first_sheared, first_suspect
+from subslide.kernels.advance_axial import advance_axial
+from subslide.kernels.arrays import GHOSTS, Cells, Fluxes, Marks, Side, allocate
+from subslide.models.limits import LOST_GRAINS, first_sheared, first_suspect
 
 
 class Axial:

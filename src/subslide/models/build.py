@@ -4,18 +4,18 @@ import math
 
 import numpy as np
 
-from .. import scenes
-from ..kernels.arrays import GeneralScene, Scene
-from ..kernels.boundary import BOUNDARIES, WALL
-from ..kernels.friction import LAWS
-from ..kernels.interlayer import TREATMENTS
-from ..kernels.printed import AS_PRINTED
-from ..kernels.viscosity import SCHEMES
-from ..kernels.waves import SPEEDS
-from .axial import Axial
-from .choice import geometry, needs_general
-from .grid import make_grid
-from .plane import Plane
+from subslide import scenes
+from subslide.kernels.arrays import GeneralScene, Scene
+from subslide.kernels.boundary import BOUNDARIES, WALL
+from subslide.kernels.friction import LAWS
+from subslide.kernels.hyperbolicity import TREATMENTS
+from subslide.kernels.printed import AS_PRINTED
+from subslide.kernels.viscosity import SCHEMES
+from subslide.kernels.waves import SPEEDS
+from subslide.models.axial import Axial
+from subslide.models.grid import make_grid
+from subslide.models.plane import Plane
+from subslide.study.choice import geometry, needs_general
 
 
 def scaled(point, layers, dx, dry_depth):

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ..kernels.arrays import GHOSTS
-from ..kernels.interlayer import is_complex
+from subslide.kernels.arrays import GHOSTS
+from subslide.kernels.hyperbolicity import is_complex
 
 LOST_GRAINS = 1e-3
 """Fraction of the grains that may leave the box, thinner than the front, before the run counts as `left_domain`."""

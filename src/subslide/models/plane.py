@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from ..kernels.advance_planar import BLOCK, ROW_COLUMNS, advance_planar
-from ..kernels.arrays import GHOSTS, Cells, Fluxes, Marks, Side, allocate
-from ..kernels.span import SPANS
-from .limits import LOST_GRAINS, first_sheared, first_suspect
+from subslide.kernels.active import SPANS
+from subslide.kernels.advance_planar import BLOCK, ROW_COLUMNS, advance_planar
+from subslide.kernels.arrays import GHOSTS, Cells, Fluxes, Marks, Side, allocate
+from subslide.models.limits import LOST_GRAINS, first_sheared, first_suspect
 
 
 class Plane:

@@ -5,10 +5,10 @@ Where two columns overlap the height is 1. The front is measured from the middle
 
 import numpy as np
 
-from ..exact import half_box
-from . import SceneError, cylinder, options, still_water
-from ._cells import over_plane
-from ._discs import ellipse_area, fraction
+from subslide.exact import half_box
+from subslide.scenes import SceneError, cylinder, options, still_water
+from subslide.scenes._cells import over_plane
+from subslide.scenes._discs import ellipse_area, fraction
 
 OPTIONS = {
     "count": {"description": "number of columns", "enum": [1, 2], "default": 1},

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from . import still_water
-from ._cells import over_plane
+from subslide.scenes import still_water
+from subslide.scenes._cells import over_plane
 
 OPTIONS = {}
 

@@ -6,8 +6,8 @@ The box needs `boundary: wall`. The answer is known exactly without friction, at
 
 import numpy as np
 
-from ..exact.dam_break import DEFAULTS, depth
-from . import State, check_walls, options, still_water
+from subslide.exact.dam_break import DEFAULTS, depth
+from subslide.scenes import State, check_walls, options, still_water
 
 OPTIONS = {
     "layer": {

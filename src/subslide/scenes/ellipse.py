@@ -2,9 +2,9 @@
 
 import math
 
-from . import cylinder, options, still_water
-from ._cells import over_plane
-from ._discs import ellipse_area, fraction
+from subslide.scenes import cylinder, options, still_water
+from subslide.scenes._cells import over_plane
+from subslide.scenes._discs import ellipse_area, fraction
 
 OPTIONS = {
     "elongation": {

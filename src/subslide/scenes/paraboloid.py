@@ -5,9 +5,9 @@ Without friction and with r = 0 it spreads as `exact.paraboloid` says.
 
 import numpy as np
 
-from ..exact.paraboloid import depth, ring_mean
-from . import still_water
-from ._cells import means, over_plane
+from subslide.exact.paraboloid import depth, ring_mean
+from subslide.scenes import still_water
+from subslide.scenes._cells import means, over_plane
 
 OPTIONS = {}
 

@@ -8,9 +8,9 @@ import math
 
 import numpy as np
 
-from ..exact import friction_number
-from . import SceneError, options, still_water
-from ._cells import means, over_plane
+from subslide.exact import friction_number
+from subslide.scenes import SceneError, options, still_water
+from subslide.scenes._cells import means, over_plane
 
 OPTIONS = {
     "shape": {"description": "form of the pile", "enum": ["cone", "pyramid"], "default": "cone"},

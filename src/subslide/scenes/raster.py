@@ -11,8 +11,8 @@ import os
 
 import numpy as np
 
-from ..exact import half_box
-from . import SceneError, options, still_water
+from subslide.exact import half_box
+from subslide.scenes import SceneError, options, still_water
 
 OPTIONS = {
     "file": {

@@ -6,8 +6,8 @@ on unchanged. The box needs `boundary: periodic`; the wave fits it `mode` times.
 wave: at first order a box of 100 cells shows its growth by e^2 cleanly, at second order that by e^(1/4).
 """
 
-from ..exact.shear import DEFAULTS, state
-from . import SceneError, State, options
+from subslide.exact.shear import DEFAULTS, state
+from subslide.scenes import SceneError, State, options
 
 OPTIONS = {
     "shear": {

@@ -6,8 +6,8 @@ The box needs `boundary: wall`.
 
 import numpy as np
 
-from ..exact.slide import DEFAULTS
-from . import check_walls, options, still_water
+from subslide.exact.slide import DEFAULTS
+from subslide.scenes import check_walls, options, still_water
 
 OPTIONS = {
     "speed": {

@@ -3,8 +3,8 @@
 It fits the box that it gets, on a line or on a radius, and swings as `exact.standing_wave` says without friction.
 """
 
-from ..exact.standing_wave import DEFAULTS, form_mean, parts, wave_number
-from . import SceneError, State, check_walls, options
+from subslide.exact.standing_wave import DEFAULTS, form_mean, parts, wave_number
+from subslide.scenes import SceneError, State, check_walls, options
 
 OPTIONS = {
     "kind": {

@@ -3,9 +3,9 @@
 One law a file; to add one, name it in LAWS and give it a branch in `further`.
 """
 
-from ..jit import inlined
-from .pouliquen import pouliquen
-from .voellmy import voellmy
+from subslide.kernels.friction.pouliquen import pouliquen
+from subslide.kernels.friction.voellmy import voellmy
+from subslide.kernels.jit import inlined
 
 LAWS = {"coulomb": 0, "voellmy": 1, "pouliquen": 2}
 COULOMB, VOELLMY, POULIQUEN = LAWS.values()

@@ -1,6 +1,6 @@
 """Coulomb friction and the states at rest that it holds (Eq. 3 and Theorem 3.1 of the paper)."""
 
-from ..jit import inlined
+from subslide.kernels.jit import inlined
 
 
 @inlined

@@ -6,7 +6,7 @@ flow, delta_2 in thin and fast flow. At rest it is Coulomb's law with delta.
 
 import math
 
-from ..jit import inlined
+from subslide.kernels.jit import inlined
 
 
 @inlined

@@ -3,7 +3,7 @@
 The bed resists with the stress rho_s g |u|^2 / xi beside Coulomb's, so that d|u|/dt = -g |u|^2 / (xi h2).
 """
 
-from ..jit import inlined
+from subslide.kernels.jit import inlined
 
 
 @inlined

@@ -5,10 +5,10 @@ each; to add one, name it in SCHEMES and give it a branch in `coefficients`. Roe
 (see `roe`).
 """
 
-from ..jit import inlined
-from .hll import hll
-from .ifcp import ifcp
-from .rusanov import rusanov
+from subslide.kernels.jit import inlined
+from subslide.kernels.viscosity.hll import hll
+from subslide.kernels.viscosity.ifcp import ifcp
+from subslide.kernels.viscosity.rusanov import rusanov
 
 SCHEMES = {"rusanov": 0, "hll": 1, "ifcp": 2, "ifcph": 3, "roe": 4}
 RUSANOV, HLL, IFCP, IFCPH, ROE = SCHEMES.values()

@@ -1,6 +1,6 @@
 """HLL in its path-conservative form (Harten, Lax, van Leer 1983; the paper's coefficients for wet/dry edges)."""
 
-from ..jit import inlined
+from subslide.kernels.jit import inlined
 
 
 @inlined

@@ -1,6 +1,6 @@
 """IFCP: Intermediate Field Capturing Parabola (Fernandez-Nieto, Castro, Pares 2011)."""
 
-from ..jit import inlined
+from subslide.kernels.jit import inlined
 
 
 @inlined

@@ -2,7 +2,7 @@
 
 import math
 
-from ..jit import inlined
+from subslide.kernels.jit import inlined
 
 
 @inlined

@@ -1,6 +1,6 @@
 """Rusanov's solver (local Lax-Friedrichs)."""
 
-from ..jit import inlined
+from subslide.kernels.jit import inlined
 
 
 @inlined

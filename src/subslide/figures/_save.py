@@ -1,0 +1,38 @@
+"""From a finished study to files of figures: finds the figure's module, draws it and saves it."""
+
+import importlib
+from pathlib import Path
+
+from subslide import figures
+from subslide.files import replacing
+from subslide.keys import schema
+from subslide.keys.schema import ConfigError
+
+
+def save(name: str, results: Path, output: Path) -> list[Path]:
+    """Paths of the PNG and SVG of a figure, the same bytes for the same results.
+
+    name: one of `figures.names()`; results: folder of the study; output: folder of the files.
+    """
+    if name not in figures.names():
+        hint = schema.closest(name, figures.names())
+        raise ConfigError(
+            f"figure: {name} is not allowed; allowed: {', '.join(figures.names()) or 'none'}{hint}"
+        )
+    if not (results / "tables" / "runs.csv").is_file():
+        raise ConfigError(
+            f"--results: {results} has no tables/runs.csv; allowed: the folder of a finished study"
+        )
+    import matplotlib
+
+    matplotlib.use("Agg")
+    matplotlib.rcParams["svg.hashsalt"] = "subslide"
+    from subslide.results import Results
+
+    drawn = importlib.import_module(f"subslide.figures.{name}").draw(Results(results))
+    output.mkdir(parents=True, exist_ok=True)
+    paths = [output / f"{name}.{kind}" for kind in ("png", "svg")]
+    for path, metadata in zip(paths, ({"Software": None}, {"Date": None}), strict=True):
+        with replacing(path) as temporary:
+            drawn.savefig(temporary, format=path.suffix[1:], dpi=200, bbox_inches="tight", metadata=metadata)
+    return paths

@@ -1,0 +1,175 @@
+"""The ledger of a study: which batch solves which point. It only grows, so no solved point is ever solved again
+because of points that came later, and it is written by the process that plans, never by its jobs.
+
+Each batch is one file, `batches/NNNN.json`, with whole points; the union of the files is the ledger, and a
+point that two of them hold belongs to the first.
+"""
+
+import json
+import math
+import os
+import uuid
+from collections.abc import Iterable
+from pathlib import Path
+from typing import NamedTuple
+
+from subslide.files import write_json
+from subslide.jobs import file_hash
+from subslide.points import Point, to_dict
+from subslide.study.config import Study, kernels_of, solved_model
+
+SECONDS = (2.0, 60.0)
+"""Least and greatest estimated cost of a batch: starting a process costs a second; a lost batch at most a minute."""
+
+SECONDS_PER_CELL = {"axial": 2.5e-8, "planar": 9e-8}
+"""Of one step and order of accuracy, on one core."""
+
+PARTS = 16
+"""Batches that a set of new points makes if their cost allows it."""
+
+MOST_POINTS, MOST_BYTES = 250, 256e6
+"""Limits of one record."""
+
+
+class Plan(NamedTuple):
+    """For each batch that a study's points are in, by name: the kernels that it needs, as 'model:dtype[:general]'."""
+
+    batches: dict[str, str]
+
+
+class LedgerError(RuntimeError):
+    """A ledger that lacks points, read by a process that may not extend it."""
+
+
+def plan(study: Study, folder: Path, extend: bool) -> Plan:
+    """Plan of a study; with `extend`, new points get batches and `points.json` states the runs and their order.
+
+    folder: the study's folder of results. Only the process that plans may extend the ledger.
+    """
+    owner, kernels = read(folder)
+    solved = study.solved
+    new = [point for point in solved if point.id not in owner]
+    if new and not extend:
+        raise LedgerError(f"{folder}: {len(new)} points are in no batch; run the study from its main process")
+    while new:
+        _append(folder, split(new))
+        owner, kernels = read(folder)
+        new = [point for point in solved if point.id not in owner]
+    if extend:
+        folder.mkdir(parents=True, exist_ok=True)
+        write_json(folder / "points.json", _index(study, owner))
+    return Plan({batch: kernels[batch] for batch in sorted({owner[point.id] for point in solved})})
+
+
+def _index(study: Study, owner: dict[str, str]) -> dict:
+    """What points.json holds: the runs in the order of the tables and, apart, the companions of a study with bands.
+
+    A companion states the id of its run (`of`) and its role; a point that is companion of two runs is there twice.
+    """
+    found = {
+        "study": study.name,
+        "points": [
+            {"id": point.id, "batch": owner[point.id], "numerics": label, **to_dict(point)}
+            for label, point in study.runs
+        ],
+    }
+    if study.bands:
+        found["companions"] = [
+            {"id": point.id, "of": run.id, "role": role, "batch": owner[point.id], **to_dict(point)}
+            for run, role, point in study.companions
+        ]
+    return found
+
+
+def read(folder: Path) -> tuple[dict[str, str], dict[str, str]]:
+    """Name of the batch of each point's id, and kernels of each batch.
+
+    A file that cannot be read counts as empty: its points come anew.
+    """
+    owner, kernels = {}, {}
+    for path in sorted((folder / "batches").glob("[0-9]*.json")):
+        try:
+            batch = json.loads(path.read_text(encoding="utf-8"))
+            ids, kernels[path.stem] = [row["id"] for row in batch["points"]], batch["kernels"]
+        except (OSError, ValueError, KeyError, TypeError):
+            continue
+        for name in ids:
+            owner.setdefault(name, path.stem)
+    return owner, kernels
+
+
+def split(points: list[Point]) -> list[list[Point]]:
+    """Batches of points: one cell size and one set of kernels in each, balanced by estimated cost.
+
+    The number of cores has no say, so that the files of a study do not depend on it.
+    """
+    groups = {}
+    for point in points:
+        groups.setdefault((kernels_of(point), point.dx, point.fields), []).append(point)
+    total = sum(cost(point) for point in points)
+    target = min(max(total / PARTS, SECONDS[0]), SECONDS[1])
+    return [batch for group in groups.values() for batch in _balanced(group, target)]
+
+
+def cost(point: Point) -> float:
+    """Estimated seconds of a run on one core: cells times steps, and a start.
+
+    A step is limited by the fastest wave, sqrt(g (H1 + H2)), over the paper's time unless the run has one of its own.
+    """
+    half = point.cells / 2
+    cells, kind = {"quarter": (half**2, "planar"), "plane": (4 * half**2, "planar")}.get(
+        solved_model(point), (half, "axial")
+    )
+    seconds = point.t_end or 0.54 * math.sqrt(point.radius / 0.0705)
+    fastest = math.sqrt(point.g * point.a_2 * point.radius * (1 + point.a_H))
+    steps = seconds * fastest / (point.cfl * point.dx) * (2 if kind == "planar" else 1)
+    return 0.005 + SECONDS_PER_CELL[kind] * cells * steps * point.order
+
+
+def damaged(folder: Path, batches: Iterable[str]) -> list[Path]:
+    """Records, of these batches, whose bytes do not match the SHA-256 that was stored beside them."""
+    found = []
+    for name in batches:
+        record = folder / "records" / f"{name}.nc"
+        stated = record.with_name(record.name + ".sha256")
+        if record.exists() and stated.exists() and stated.read_text().split()[:1] != [file_hash(record)]:
+            found.append(record)
+    return found
+
+
+def _balanced(points: list[Point], target: float) -> list[list[Point]]:
+    """Points in bins of about `target` seconds each: the costliest first, into the least filled bin."""
+    total = sum(cost(point) for point in points)
+    size = sum(_bytes(point) for point in points)
+    bins = max(math.ceil(total / target), math.ceil(len(points) / MOST_POINTS), math.ceil(size / MOST_BYTES))
+    bins = min(bins, len(points))
+    filled, members = [0.0] * bins, [[] for _ in range(bins)]
+    for n in sorted(range(len(points)), key=lambda n: (-cost(points[n]), n)):
+        least = min(range(bins), key=lambda b: (filled[b], len(members[b]), b))
+        filled[least] += cost(points[n])
+        members[least].append(n)
+    return [[points[n] for n in sorted(bin_)] for bin_ in members]
+
+
+def _bytes(point: Point) -> float:
+    """Estimated size of a run in a record."""
+    across = point.cells * 1.2
+    return 80.0 * 2.4 * across + (5 * 2 * 4 * across**2 if point.fields else 0)
+
+
+def _append(folder: Path, batches: list[list[Point]]) -> None:
+    """Nothing; each batch has a new file, or, where another process took its number first, the rest is left out."""
+    home = folder / "batches"
+    home.mkdir(parents=True, exist_ok=True)
+    number = max((int(path.stem) for path in home.glob("[0-9]*.json")), default=0)
+    for points in batches:
+        number += 1
+        temporary = home / f".{uuid.uuid4().hex}.tmp"
+        try:
+            rows = [{"id": point.id, **to_dict(point)} for point in points]
+            write_json(temporary, {"kernels": kernels_of(points[0]), "points": rows})
+            os.link(temporary, home / f"{number:04d}.json")  # fails if the name is taken, unlike a rename
+        except FileExistsError:
+            return
+        finally:
+            temporary.unlink(missing_ok=True)

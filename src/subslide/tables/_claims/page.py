@@ -1,0 +1,40 @@
+"""The table of claims as a page to read: a row a claim, verdicts in bold, numbers below them."""
+
+from html import escape
+
+import pandas as pd
+
+from subslide.tables._claims.verdicts import OPEN, REFUTED, SUPPORTED
+
+SHADES = {SUPPORTED: "#d9eedd", REFUTED: "#f6d5cf", OPEN: "#eeeeee", "": "#ffffff"}
+STYLE = """body { font: 14px/1.4 sans-serif; margin: 1.5em; } table { border-collapse: collapse; }
+th, td { border: 1px solid #bbb; padding: 0.4em 0.6em; text-align: left; vertical-align: top; }
+small { color: #333; } p { max-width: 60em; }"""
+INTRODUCTION = """What sections 4 and 5 of the source paper say of its results, held against this study. Verdicts
+count what differs by more than the bands of discretisation error (±; thrice the range of three grids where these show
+no order); a value without a band (±?) decides nothing. The verdict in brackets takes the numbers as they are."""
+
+
+def html(table: pd.DataFrame, kinds: dict[str, str]) -> str:
+    """Page (HTML, self-contained) of the table of claims. kinds: columns of numbers, by name of their numerics."""
+    heads = "".join(f"<th>{escape(name)} numerics</th>" for name in kinds)
+    rows = "\n".join(_row(row, kinds.values()) for row in table.to_dict("records"))
+    return f"""<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>The paper's claims</title><style>{STYLE}</style></head>
+<body><h1>The paper's claims</h1><p>{INTRODUCTION}</p>
+<table><tr><th>claim</th>{heads}</tr>
+{rows}
+</table></body></html>
+"""
+
+
+def _row(row: dict, columns) -> str:
+    words, section, measure = (escape(row[key]) for key in ("claim", "section", "measure"))
+    claim = f"<b>{words}</b> (section {section})<br><small>{measure}</small>"
+    return f"<tr><td>{claim}</td>{''.join(_cell(row, column) for column in columns)}</tr>"
+
+
+def _cell(row: dict, column: str) -> str:
+    verdict, computed = row[f"{column}_verdict"], row[f"{column}_as_computed"]
+    words = f"<b>{verdict}</b> (as computed: {computed})<br>" if verdict else ""
+    return f'<td style="background: {SHADES[verdict]}">{words}<small>{escape(row[column])}</small></td>'

@@ -1,0 +1,76 @@
+"""Which runs of a study solve one column with many numerics, and which of these are its truth."""
+
+import json
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from subslide import points
+from subslide.keys import schema
+from subslide.points import Point, from_dict, paper_times, to_dict
+from subslide.study.config import COARSENING, solved_model
+
+METHOD = ("model", "scheme", "front_flux", "wave_speeds", "order", "dtype", "cfl")
+"""Keys of a method: all numerics but the cells."""
+APART = (*METHOD, "cells", "quantities", "snapshot_times", "fields")
+"""Keys in which runs of one problem may differ."""
+
+
+class Problem(NamedTuple):
+    """One column: the points of its runs, and those of the three grids, the finest first, that give the truth."""
+
+    points: tuple[Point, ...]
+    truth: tuple[Point, ...]
+
+
+def method(point: Point) -> tuple:
+    """Values of METHOD of a point, with the model that is solved."""
+    return (solved_model(point), *(getattr(point, key) for key in METHOD[1:]))
+
+
+DEFAULT = method(Point())
+"""Default numerics, which solve a round column on its radius."""
+PAPER = method(from_dict({**schema.properties()["numerics"]["presets"]["paper"], "model": "plane"}))
+"""The source paper's method, in the plane as the paper has it."""
+NAMES = {DEFAULT: "default", PAPER: "paper"}
+PLANES = ("quarter", "plane")
+
+
+def problems(among: Iterable[Point]) -> list[Problem]:
+    """Problems among some points: columns with runs in the plane and, by the default numerics, on three grids on a
+    radius of which each has twice the cells of the next."""
+    groups = {}
+    for point in among:
+        if point.scene == "cylinder":
+            groups.setdefault(_physics(point), []).append(point)
+    found = [Problem(tuple(group), _truth(group)) for group in groups.values()]
+    return [one for one in found if one.truth and any(solved_model(p) in PLANES for p in one.points)]
+
+
+def _truth(group: list[Point]) -> tuple[Point, ...]:
+    """Points of the three finest grids of the default numerics that halve twice; none without."""
+    grids = {point.cells: point for point in group if method(point) == DEFAULT}
+    for cells in sorted(grids, reverse=True):
+        wanted = [cells / ratio for ratio in (1, *COARSENING.values())]
+        if all(n in grids for n in wanted):
+            return tuple(grids[n] for n in wanted)
+    return ()
+
+
+def _physics(point: Point) -> str:
+    """Text that is equal for points of one problem."""
+    return json.dumps(
+        {key: value for key, value in to_dict(point).items() if key not in APART}, sort_keys=True
+    )
+
+
+def end_time(point: Point) -> float:
+    """Time (s) up to which fronts are compared: the end of the run, or the paper's last time for a run to rest."""
+    return point.t_end or paper_times(point.radius)[-1]
+
+
+def edge_time(point: Point) -> float:
+    """Time (s) up to which waves are compared: until the first is at the edge of the paper's box, or the run's end.
+
+    From then on the edge has a part, and it is round on a radius but square in the plane.
+    """
+    return min(points.edge_time(point.a_H, point.a_2, point.radius, point.g), end_time(point))
