@@ -47,7 +47,7 @@ verify: $(READY)  ## exact solutions, and error against seconds of all numerics;
 .PHONY: atlas
 atlas: $(READY)  ## where methods fail: thousands of runs, maps of errors and statuses, largest stable Courant numbers
 	@$(BIN)/snakemake --configfile config/stability.yaml --cores "$$CORES"
-	@cat results/stability/logs/atlas.log
+	@cat results/stability/logs/table-atlas.log
 
 setup: $(READY)  ## set up alone: .venv with the locked packages and this one
 

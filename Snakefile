@@ -3,11 +3,10 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from subslide import exact, figures, source_hash
+from subslide import catalogue, source_hash, tables
 from subslide.keys.schema import ConfigError
 from subslide.study import batches as ledger
 from subslide.study.config import make_study
-from subslide.tables._problems import problems
 
 if not workflow.overwrite_configfiles:  # never merged with a file that the user gives
 
@@ -25,7 +24,6 @@ PLAN = ledger.plan(STUDY, RESULTS, extend=workflow.is_main_process)
 
 include: "workflow/rules/solve.smk"
 include: "workflow/rules/tables.smk"
-include: "workflow/rules/atlas.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/report.smk"
 
@@ -34,8 +32,7 @@ rule all:
     default_target: True
     input:
         rules.report.output,
-        TABLES,
-        CLAIMS,
+        ALL_TABLES,
         RECORDS,
         CHECKSUMS,
         FIGURES,

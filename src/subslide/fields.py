@@ -8,6 +8,9 @@ from typing import NamedTuple
 FRONT_THRESHOLDS = (0.01, 0.03, 0.05)
 """Depths that define the front, as fractions of the column's height H2; the first is the default."""
 
+FRONT_LABELS = {f"{100 * fraction:g}pc": n for n, fraction in enumerate(FRONT_THRESHOLDS)}
+"""Place of each of them by its label in the names of columns, such as `L_f_1pc`."""
+
 
 class Field(NamedTuple):
     """One quantity: symbol in text, NetCDF dimensions, unit (UDUNITS) and long name."""
@@ -100,3 +103,6 @@ STATUSES = {
     "step_collapse": "the stable time step became too small to finish",
     "hyperbolicity_lost": "wave speeds became complex and the treatment is to stop",
 }
+
+FINISHED = ("ok", "not_at_rest")
+"""Statuses of runs that have an answer: they were not stopped before their end."""

@@ -7,9 +7,13 @@ import uuid
 from pathlib import Path
 
 
+class RecordError(Exception):
+    """A file that is not a whole record: missing, cut short, damaged, or something else."""
+
+
 @contextlib.contextmanager
 def replacing(path: Path | str):
-    """Context that gives a temporary path beside `path`, and moves it there once the block has ended well.
+    """Give a temporary path beside `path`, and move it there once the block has ended well.
 
     The data are on the disk before the name changes; after an error neither file is left behind.
     """
@@ -25,13 +29,13 @@ def replacing(path: Path | str):
 
 
 def write_text(path: Path | str, text: str) -> None:
-    """Nothing; the file holds the text afterwards, or is as it was."""
+    """Write a text, or leave the file as it was."""
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
 
 def write_json(path: Path | str, value) -> None:
-    """Nothing; the file holds the value as JSON. A file that holds it already is not touched."""
+    """Write a value as JSON; a file that holds it already is not touched."""
     text = json.dumps(value, indent=1, allow_nan=False) + "\n"
     with contextlib.suppress(OSError, UnicodeDecodeError):
         if Path(path).read_text(encoding="utf-8") == text:
@@ -40,6 +44,7 @@ def write_json(path: Path | str, value) -> None:
 
 
 def _sync(path: Path) -> None:
+    """Wait until a file or folder is on the disk."""
     handle = os.open(path, os.O_RDONLY)
     try:
         os.fsync(handle)

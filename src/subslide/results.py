@@ -1,37 +1,75 @@
-"""A finished study for those who read it: its tables as pandas, its records as xarray, opened lazily."""
+"""A finished study for those who read it: its runs, their records run by run, and its tables."""
 
+import csv
 import functools
 import json
+import math
+from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-import pandas as pd
-import xarray as xr
 
+from subslide import catalogue
+from subslide.files import RecordError
 from subslide.keys.schema import ConfigError
-from subslide.records import netcdf as records
-from subslide.tables import bands
+from subslide.points import RUN_KEYS, Point, from_dict
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+MOST_BYTES = 250e6
+"""Size of the records from which on a study is read in more than one go."""
+
+
+class StudyRun(NamedTuple):
+    """One run of a study: its id, the label of its numerics, its point, and the batch whose record holds it."""
+
+    id: str
+    numerics: str
+    point: Point
+    batch: str
+
+
+class Companion(NamedTuple):
+    """A coarser run of a study with bands: its id, that of the run it belongs to, its role, its point and its batch."""
+
+    id: str
+    of: str
+    role: str
+    point: Point
+    batch: str
 
 
 class Results:
-    """Read-only view of a study's folder, such as results/paper."""
+    """Read-only view of a study's folder.
+
+    Parameters
+    ----------
+    folder
+        Folder of a study that was run, such as `results/paper`.
+    """
 
     def __init__(self, folder: Path | str):
         self.folder = Path(folder)
 
     @functools.cached_property
-    def points(self) -> list[dict]:
-        """Runs in the order of the tables: id, batch, label of the numerics, and every key of the point."""
-        return self._index["points"]
+    def runs_of_study(self) -> tuple[StudyRun, ...]:
+        """Return the runs in the order of the tables; ConfigError if the folder is none of a study."""
+        return tuple(
+            StudyRun(row["id"], row["numerics"], _point(row), row["batch"]) for row in self._index["points"]
+        )
 
     @functools.cached_property
-    def companions(self) -> list[dict]:
-        """Coarser runs of a study with bands: id, the run it is a companion `of`, its role, batch, and every key."""
-        return self._index.get("companions", [])
+    def companions(self) -> tuple[Companion, ...]:
+        """Return the coarser runs of a study with bands; none without."""
+        rows = self._index.get("companions", ())
+        return tuple(Companion(row["id"], row["of"], row["role"], _point(row), row["batch"]) for row in rows)
 
     @functools.cached_property
     def _index(self) -> dict:
-        """What points.json holds."""
+        """Return what points.json holds."""
         path = self.folder / "points.json"
         try:
             return json.loads(path.read_text(encoding="utf-8"))
@@ -40,46 +78,135 @@ class Results:
                 f"{path}: there is no such file; allowed: the folder of a study that was run"
             ) from None
 
-    @functools.cached_property
-    def runs(self) -> pd.DataFrame:
-        """Table of runs (tables/runs.csv), one row a run."""
-        return pd.read_csv(self.folder / "tables" / "runs.csv")
+    def each(
+        self, *names: str, among: Iterable[StudyRun | Companion] | None = None
+    ) -> Iterator[tuple[StudyRun | Companion, dict[str, Any]]]:
+        """Give each run with variables of its record.
+
+        Every batch is read and verified once, or, where the records are large, once for each of a few parts of the
+        study, so that what is in memory stays small.
+
+        Parameters
+        ----------
+        names
+            Names of the variables; what a record lacks is left out.
+        among
+            Runs or companions to read; without it the runs of the study, in the order of its tables.
+
+        Yields
+        ------
+        tuple
+            The run, and its variables by name: NumPy arrays, text or numbers, without the dimension `run` and without
+            the padding that other runs of its batch need.
+
+        Raises
+        ------
+        RecordError
+            If a record is missing or damaged, or lacks the run.
+        """
+        runs = list(self.runs_of_study if among is None else among)
+        paths = {run.batch: self._record_path(run.batch) for run in runs}
+        size = sum(path.stat().st_size for path in paths.values() if path.exists())
+        count = max(1, math.ceil(len(runs) / max(1, math.ceil(size / MOST_BYTES))))
+        for first in range(0, len(runs), count):
+            part, held = runs[first : first + count], {}
+            for batch in dict.fromkeys(run.batch for run in part):
+                ids = {run.id for run in part if run.batch == batch}
+                held |= _of_runs(paths[batch], ids, names)
+            yield from ((run, held[run.id]) for run in part)
+
+    def record(self, name: str) -> "xr.Dataset":
+        """Return the record of one run by its id, loaded, without the dimension `run` and without padding."""
+        for run in self.runs_of_study:
+            if run.id == name:
+                return trimmed(self.batch(run.batch), name).load()
+        raise KeyError(f"{name}: there is no such run in {self.folder}")
+
+    @functools.lru_cache(maxsize=64)  # noqa: B019 - a Results lives as long as its process
+    def batch(self, batch: str) -> "xr.Dataset":
+        """Return the record of a batch, verified once and then read lazily (dask)."""
+        from subslide.records import netcdf
+
+        path = self._record_path(batch)
+        netcdf.read(path)
+        return open_record(path)
+
+    def _record_path(self, batch: str) -> Path:
+        """Return the path of the record of a batch."""
+        return self.folder / "records" / f"{batch}.nc"
+
+    def table(self, name: str) -> "pd.DataFrame":
+        """Return a table of the study by its name, as it was last written.
+
+        Raises
+        ------
+        ConfigError
+            If the study's folder has no such table.
+        """
+        import pandas as pd
+
+        path = self._table_path(name)
+        if path.suffix == ".parquet":
+            return pd.read_parquet(path)
+        return pd.read_csv(path, keep_default_na=False, na_values=[""])
+
+    def lines(self, name: str) -> list[dict[str, str]]:
+        """Return the rows of a table that is CSV as text by column; ConfigError without the table."""
+        with open(self._table_path(name), newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def _table_path(self, name: str) -> Path:
+        """Return the path of a table that is there."""
+        paths = [self.folder / "tables" / f"{name}.{kind}" for kind in ("parquet", "csv")]
+        for path in paths:
+            if path.is_file():
+                return path
+        raise ConfigError(
+            f"{paths[-1]}: there is no such file; allowed: the folder of a study with this table"
+        )
 
     @functools.cached_property
-    def series(self) -> pd.DataFrame:
-        """Tidy table of series: id, time (s), quantity, value."""
-        parquet = self.folder / "tables" / "series.parquet"
-        return pd.read_parquet(parquet) if parquet.exists() else pd.read_csv(parquet.with_suffix(".csv"))
+    def runs(self) -> "pd.DataFrame":
+        """Return the table of runs, one row a run."""
+        return self.table("runs")
 
     @functools.cached_property
-    def bands(self) -> pd.DataFrame:
-        """Tidy table of bands (tables/bands.csv): a row for each run, quantity and time; empty without bands."""
-        path = self.folder / "tables" / "bands.csv"
-        return pd.read_csv(path) if path.exists() else pd.DataFrame(columns=list(bands.COLUMNS))
+    def series(self) -> "pd.DataFrame":
+        """Return the tidy table of series: id, time (s), quantity, value."""
+        return self.table("series")
 
     @functools.cached_property
-    def errors(self) -> pd.DataFrame:
-        """Table of errors against exact solutions (tables/errors.csv), of a study that has any."""
-        return pd.read_csv(self.folder / "tables" / "errors.csv")
+    def bands(self) -> "pd.DataFrame":
+        """Return the tidy table of bands, a row for each run, quantity and time; empty for a study without bands."""
+        return self.table("bands") if self.companions else _empty("bands")
 
     @functools.cached_property
-    def work_precision(self) -> pd.DataFrame:
-        """Table of errors and seconds (tables/work_precision.csv); empty for a study without a sweep of numerics."""
-        path = self.folder / "tables" / "work_precision.csv"
-        return pd.read_csv(path) if path.exists() else pd.DataFrame()
+    def errors(self) -> "pd.DataFrame":
+        """Return the table of errors against exact solutions, of a study that has any."""
+        return self.table("errors")
 
     @functools.cached_property
-    def atlas(self) -> pd.DataFrame:
-        """Stability atlas (tables/atlas.csv), one row a run, of a study that draws it."""
-        return pd.read_csv(self.folder / "tables" / "atlas.csv", keep_default_na=False, na_values=[""])
+    def work_precision(self) -> "pd.DataFrame":
+        """Return the table of errors and seconds; empty for a study without a sweep of numerics."""
+        try:
+            return self.table("work_precision")
+        except ConfigError:
+            return _empty("work_precision")
 
     @functools.cached_property
-    def cfl(self) -> pd.DataFrame:
-        """Courant numbers tried (tables/cfl.csv), of a study that draws the atlas."""
-        return pd.read_csv(self.folder / "tables" / "cfl.csv")
+    def atlas(self) -> "pd.DataFrame":
+        """Return the stability atlas, one row a run, of a study that draws it."""
+        return self.table("atlas")
 
-    def select(self, **values) -> pd.DataFrame:
-        """Rows of the table of runs whose columns equal the given values; numbers to nine digits."""
+    @functools.cached_property
+    def cfl(self) -> "pd.DataFrame":
+        """Return the Courant numbers that were tried, of a study that draws the atlas."""
+        return self.table("cfl")
+
+    def select(self, **values) -> "pd.DataFrame":
+        """Return the rows of the table of runs whose columns equal the given values; numbers to nine digits."""
+        import pandas as pd
+
         chosen = np.ones(len(self.runs), bool)
         for column, value in values.items():
             entries = self.runs[column]
@@ -89,28 +216,16 @@ class Results:
             )
         return self.runs[chosen]
 
-    def record(self, name: str) -> xr.Dataset:
-        """Record of one run by its id, loaded, without the dimension `run` and without padding."""
-        for row in self.points:
-            if row["id"] == name:
-                return trimmed(self.batch(row["batch"]), name).load()
-        raise KeyError(f"{name}: there is no such run in {self.folder}")
 
-    @functools.lru_cache(maxsize=64)  # noqa: B019 - a Results lives as long as its process
-    def batch(self, batch: str) -> xr.Dataset:
-        """Record of a batch, verified once and then read lazily (dask)."""
-        path = self.folder / "records" / f"{batch}.nc"
-        records.read(path)
-        return open_record(path)
+def open_record(path: Path | str) -> "xr.Dataset":
+    """Return the dataset of a record, lazy (dask), with times as plain seconds."""
+    import xarray as xr
 
-
-def open_record(path: Path | str) -> xr.Dataset:
-    """Dataset of a record, lazy (dask), with times as plain seconds."""
     return xr.open_dataset(path, engine="netcdf4", chunks={}, decode_times=False)
 
 
-def trimmed(data: xr.Dataset, name: str) -> xr.Dataset:
-    """The run called `name` of a record, without the padding that other runs of its batch need."""
+def trimmed(data: "xr.Dataset", name: str) -> "xr.Dataset":
+    """Return the run called `name` of a record, without the padding that other runs of its batch need."""
     place = int(np.flatnonzero(data["id"].values == name)[0])
     one = data.isel(run=place)
     one = one.isel(step=slice(int(np.isfinite(one["time"].values).sum())))
@@ -119,3 +234,47 @@ def trimmed(data: xr.Dataset, name: str) -> xr.Dataset:
         inside = np.isfinite(one["h2"].isel(snapshot=0).values)
         one = one.isel(snapshot=slice(snapshots), **{dim: inside for dim in ("x", "y") if dim in one.dims})
     return one
+
+
+def _point(row: dict) -> Point:
+    """Return the point of a row of points.json."""
+    return from_dict({key: row[key] for key in RUN_KEYS})
+
+
+def _empty(name: str) -> "pd.DataFrame":
+    """Return a table without rows, by the columns that its module states as they are."""
+    import pandas as pd
+
+    return pd.DataFrame(columns=catalogue.columns(name))
+
+
+def _of_runs(path: Path, ids: Collection[str], names: Collection[str]) -> dict[str, dict[str, Any]]:
+    """Return the variables called `names` of the runs called `ids` of a record, by id; nothing else stays in memory."""
+    from subslide.records import netcdf
+
+    variables, _ = netcdf.read(path)
+    places = {name: n for n, name in enumerate(variables["id"].values)}
+    if lacking := sorted(set(ids) - set(places)):
+        raise RecordError(f"{path}: the record lacks the run {lacking[0]}")
+    wanted = {name: variables[name] for name in names if name in variables}
+    return {name: _of_run(variables, wanted, places[name]) for name in ids}
+
+
+def _of_run(variables: dict, wanted: dict, place: int) -> dict[str, Any]:
+    """Return the wanted variables of the run at a place of a record, without padding, as copies."""
+    cells = np.isfinite(variables["h2"].values[place, 0])
+    kept = {
+        "step": slice(int(np.isfinite(variables["time"].values[place]).sum())),
+        "snapshot": slice(int(np.isfinite(variables["snapshot_time"].values[place]).sum())),
+        "x": cells,
+        "y": cells,
+    }
+    found = {}
+    for name, variable in wanted.items():
+        dims, values = variable.dims, variable.values
+        if dims[:1] == ("run",):
+            dims, values = dims[1:], values[place]
+        for axis, dim in enumerate(dims):
+            values = values[(*[slice(None)] * axis, kept.get(dim, slice(None)))]
+        found[name] = values.copy() if dims else values
+    return found

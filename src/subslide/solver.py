@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numba
 import numpy as np
 
-from subslide.fields import FRONT_THRESHOLDS, STATUSES
+from subslide.fields import FINISHED, FRONT_THRESHOLDS, STATUSES
 from subslide.kernels import clock as k
 from subslide.models.build import build
 from subslide.points import Point, paper_times
@@ -179,7 +179,7 @@ def make_run(point, model, series, snapshots, status, detail, wall, clock):
     profiles = [profile for _, profile, _ in snapshots]
     whole = [fields for _, _, fields in snapshots]
     front = column[k.FRONT : k.FRONT + len(FRONT_THRESHOLDS)] * R
-    final = status in ("ok", "not_at_rest")
+    final = status in FINISHED
 
     def stack(values, name, kind=np.float64):
         if values[0] is None or name not in values[0]:

@@ -1,13 +1,12 @@
-# Figures: each is drawn from the tables and records alone.
+# Figures: each is drawn from the tables and records alone; tables made of other tables are for reading.
 
-CAPTIONS = Path(workflow.basedir, "workflow/report")
 FIGURES = [RESULTS / f"figures/{name}.{kind}" for name in STUDY.figures for kind in ("png", "svg")]
-
-
-def caption(name):
-    """Path of a figure's caption, or None."""
-    path = CAPTIONS / f"{name}.rst"
-    return str(path) if path.exists() else None
+DRAWN = [
+    path
+    for name, paths in TABLES.items()
+    for path in paths
+    if "records" in catalogue.table(name).reads or not catalogue.table(name).reads
+]
 
 
 for name in STUDY.figures:
@@ -16,14 +15,14 @@ for name in STUDY.figures:
         name:
             f"figure_{name}"
         input:
-            TABLES,
+            DRAWN,
             records=RECORDS,
         output:
             report(
                 RESULTS / f"figures/{name}.png",
                 caption=caption(name),
-                category=figures.about(name).category,
-                labels={"figure": figures.about(name).title},
+                category=catalogue.figure(name).category,
+                labels={"figure": catalogue.figure(name).title},
             ),
             RESULTS / f"figures/{name}.svg",
         log:

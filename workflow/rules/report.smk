@@ -6,8 +6,7 @@ CONFIG_FILES = workflow.overwrite_configfiles or ["config/paper.yaml"]  # no par
 
 rule shown:
     input:
-        TABLES,
-        CLAIMS,
+        ALL_TABLES,
         FIGURES,
 
 

@@ -1,130 +1,62 @@
-# Tables: they depend on the list of points and on the batches that those are in.
+# Tables: a rule for each that the study is to have, made from records, from other tables, or by runs of its own.
 
-SERIES = "series.parquet" if len(STUDY.points) > 1000 else "series.csv"
-TABLES = [RESULTS / "tables" / name for name in ("runs.csv", "timing.csv", SERIES)]
-if STUDY.bands:
-    TABLES.append(RESULTS / "tables/bands.csv")
-
-
-rule tables:
-    input:
-        points=RESULTS / "points.json",
-        records=RECORDS,
-    output:
-        report(
-            TABLES[0], caption="../report/runs.rst", category="5 Tables", labels={"figure": "Table of runs"}
-        ),
-        TABLES[1:],
-    log:
-        RESULTS / "logs/tables.log",
-    benchmark:
-        RESULTS / "benchmarks/tables.tsv"
-    resources:
-        mem_mb=2000,
-        runtime=60,
-    params:
-        sources=source_hash(),
-        results=RESULTS,
-    shell:
-        "subslide tables {params.results:q} > {log:q} 2>&1"
+TABLES = {
+    name: [RESULTS / "tables" / file for file in tables.files(name, len(STUDY.points))]
+    for name in catalogue.names("tables")
+    if not tables.load(name).needs(STUDY)
+}
+ALL_TABLES = [path for paths in TABLES.values() for path in paths]
+CAPTIONS = Path(workflow.basedir, "workflow/report")
 
 
-# What the paper says, held against both kinds of numerics.
-CLAIMS = []
-if {"paper", "resolved"} <= {label for label, _ in STUDY.runs}:
-    CLAIMS = [RESULTS / f"tables/claims.{kind}" for kind in ("html", "csv")]
+def caption(name):
+    """Return the path of the caption of a table or figure, or None."""
+    path = CAPTIONS / f"{name}.rst"
+    return str(path) if path.exists() else None
 
-    rule claims:
+
+def made_from(name):
+    """Return the files that a table is made from."""
+    about = catalogue.table(name)
+    records = [RESULTS / "points.json", *RECORDS] if "records" in about.reads else []
+    kernels = [RESULTS / f"kernels/{kernels.replace(':', '_')}.done" for kernels in about.kernels]
+    return [*records, *kernels, *(path for other in about.reads for path in TABLES.get(other, []))]
+
+
+def in_report(name, path):
+    """Return the path of a table's file, marked for the report if the table has a caption."""
+    if not caption(name):
+        return path
+    about = catalogue.table(name)
+    labels = {"figure": about.title if path.suffix != ".html" else f"{about.title}: page"}
+    return report(path, caption=caption(name), category=about.category, labels=labels)
+
+
+# Tables that the study had before, and has no more, would be read as if they were its own.
+if workflow.is_main_process and not DRY_RUN:
+    for name in set(catalogue.names("tables")) - set(TABLES):
+        for path in (RESULTS / "tables").glob(f"{name}.*"):
+            path.unlink()
+
+for name in TABLES:
+
+    rule:
+        name:
+            f"table_{name}"
         input:
-            TABLES,
+            made_from(name),
         output:
-            report(
-                CLAIMS[0],
-                caption="../report/claims.rst",
-                category="6 The paper's claims",
-                labels={"figure": "The paper's claims, held against this study"},
-            ),
-            report(
-                CLAIMS[1],
-                caption="../report/claims.rst",
-                category="6 The paper's claims",
-                labels={"figure": "Table of claims"},
-            ),
+            [in_report(name, path) for path in TABLES[name]],
         log:
-            RESULTS / "logs/claims.log",
+            RESULTS / f"logs/table-{name}.log",
         benchmark:
-            RESULTS / "benchmarks/claims.tsv"
-        resources:
-            mem_mb=1000,
-            runtime=10,
-        params:
-            sources=source_hash("figure"),
-            results=RESULTS,
-        shell:
-            "subslide claims {params.results:q} > {log:q} 2>&1"
-
-
-# Errors, where a scene has an exact solution.
-if any(point.scene in exact.NAMES for point in STUDY.points):
-
-    rule errors:
-        input:
-            points=RESULTS / "points.json",
-            records=RECORDS,
-        output:
-            report(
-                RESULTS / "tables/errors.csv",
-                caption="../report/errors.rst",
-                category="5 Tables",
-                labels={"figure": "Errors against exact solutions"},
-            ),
-        log:
-            RESULTS / "logs/errors.log",
-        benchmark:
-            RESULTS / "benchmarks/errors.tsv"
+            RESULTS / f"benchmarks/table-{name}.tsv"
         resources:
             mem_mb=2000,
             runtime=60,
         params:
-            sources=source_hash(),
+            sources=source_hash("table", name),
+            name=name,
             results=RESULTS,
         shell:
-            "subslide errors {params.results:q} > {log:q} 2>&1"
-
-    TABLES = [*TABLES, RESULTS / "tables/errors.csv"]
-
-
-# Error against seconds, where one column is solved by many numerics and to a converged answer.
-if problems(STUDY.points):
-
-    rule work_precision:
-        input:
-            points=RESULTS / "points.json",
-            records=RECORDS,
-        output:
-            report(
-                RESULTS / "tables/work_precision.csv",
-                caption="../report/work_precision.rst",
-                category="5 Tables",
-                labels={"figure": "Error and seconds of every choice of numerics"},
-            ),
-            report(
-                RESULTS / "tables/cheapest.csv",
-                caption="../report/work_precision.rst",
-                category="5 Tables",
-                labels={"figure": "Cheapest choices of numerics"},
-            ),
-        log:
-            RESULTS / "logs/work_precision.log",
-        benchmark:
-            RESULTS / "benchmarks/work_precision.tsv"
-        resources:
-            mem_mb=2000,
-            runtime=30,
-        params:
-            sources=source_hash("figure"),
-            results=RESULTS,
-        shell:
-            "subslide work-precision {params.results:q} > {log:q} 2>&1"
-
-    TABLES = [*TABLES, *rules.work_precision.output]
+            "subslide table {params.name:q} {params.results:q} > {log:q} 2>&1"

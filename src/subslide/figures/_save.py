@@ -3,7 +3,7 @@
 import importlib
 from pathlib import Path
 
-from subslide import figures
+from subslide import catalogue
 from subslide.files import replacing
 from subslide.keys import schema
 from subslide.keys.schema import ConfigError
@@ -12,12 +12,12 @@ from subslide.keys.schema import ConfigError
 def save(name: str, results: Path, output: Path) -> list[Path]:
     """Paths of the PNG and SVG of a figure, the same bytes for the same results.
 
-    name: one of `figures.names()`; results: folder of the study; output: folder of the files.
+    name: one of the modules of `subslide.figures`; results: folder of the study; output: folder of the files.
     """
-    if name not in figures.names():
-        hint = schema.closest(name, figures.names())
+    known = catalogue.names("figures")
+    if name not in known:
         raise ConfigError(
-            f"figure: {name} is not allowed; allowed: {', '.join(figures.names()) or 'none'}{hint}"
+            f"figure: {name} is not allowed; allowed: {', '.join(known) or 'none'}{schema.closest(name, known)}"
         )
     if not (results / "tables" / "runs.csv").is_file():
         raise ConfigError(

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from subslide import fields
+from subslide.fields import FINISHED
 from subslide.figures import _style, _words
 
 PREFERRED = {
@@ -40,8 +41,6 @@ PREFERRED = {
 ORDERS = {1: "first-order", 2: "second-order"}
 PAPER = {"a_H": (1, 2, 10), "r": (0, 0.2, 0.4, 0.6, 0.8)}
 """Values that a figure shows before others, where a study has more than it can show."""
-FINISHED = ("ok", "not_at_rest")
-"""Statuses of runs whose last profile and front mean something."""
 
 
 class Slice(NamedTuple):

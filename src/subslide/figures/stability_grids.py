@@ -3,6 +3,7 @@
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter, ScalarFormatter
 
+from subslide.fields import FINISHED
 from subslide.figures import _atlas, _style, _words
 from subslide.points import Point
 
@@ -36,7 +37,7 @@ def draw(results):
         for (order, dtype), runs in part.groupby(["order", "dtype"]):
             runs = runs[runs["L_f_error"].notna()].sort_values("cells")
             ax.loglog(runs["cells"], runs["L_f_error"], color=COLORS[order], linewidth=1.0, **LOOKS[dtype])
-        lost = part[~part["status"].isin(["ok", "not_at_rest"])]
+        lost = part[~part["status"].isin(FINISHED)]
         ax.plot(lost["cells"], [0.3] * len(lost), linestyle="", **_atlas.MARKS["failed"])
         ax.set_title(_words.panel(k, ", ".join(_words.equation(key, column[key]) for key in ("a_H", "r"))))
         ax.xaxis.set_major_formatter(ScalarFormatter())

@@ -8,7 +8,6 @@ from matplotlib.lines import Line2D
 
 from subslide import exact
 from subslide.figures import _style, _words
-from subslide.points import RUN_KEYS, from_dict
 
 TITLE = "Growth of a wave where hyperbolicity is lost"
 CATEGORY = "8 Stability"
@@ -28,7 +27,7 @@ def draw(results):
     if rows.empty:
         raise _style.NoRunsError("scene: shear")
     rows = rows.assign(shear=[json.loads(text)["shear"] for text in rows["scene_options"]])
-    points = {row["id"]: from_dict({key: row[key] for key in RUN_KEYS}) for row in results.points}
+    points = {run.id: run.point for run in results.runs_of_study}
     schemes = list(dict.fromkeys(rows["scheme"]))
     looks = _style.keys_to(schemes)
     values = sorted(rows["r"].unique())

@@ -4,7 +4,6 @@ from matplotlib.lines import Line2D
 
 from subslide import exact
 from subslide.figures import _slices, _style, _verify, _words
-from subslide.points import RUN_KEYS, from_dict
 
 TITLE = "Profiles against exact solutions"
 CATEGORY = "7 Verification"
@@ -25,7 +24,7 @@ def draw(results):
     table = results.errors
     scheme = _slices.PREFERRED["scheme"]
     scheme = scheme if (table["scheme"] == scheme).any() else table["scheme"].iloc[0]
-    points = {row["id"]: from_dict({key: row[key] for key in RUN_KEYS}) for row in results.points}
+    points = {run.id: run.point for run in results.runs_of_study}
     figure, axes = _style.panels(len(cases), COLUMNS, 1.85)
     for k, (ax, (name, rows)) in enumerate(zip(axes, cases.items(), strict=True)):
         quantity, time = rows["quantity"].iloc[0], rows["time"].iloc[0]

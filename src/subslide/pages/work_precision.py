@@ -1,160 +1,23 @@
-"""The tables as pages quote them: cheapest choices, and the paper's method against the default at equal error."""
-
-import math
-
-import pandas as pd
+"""Pages that quote error against seconds: their tables are those of the last run of a study that sweeps numerics."""
 
 from subslide.keys.schema import ConfigError
-from subslide.pages import renewal as marks
-from subslide.tables import work_precision as runs_of
-from subslide.tables._problems import DEFAULT, METHOD
+from subslide.pages import renewal
+from subslide.results import Results
+from subslide.tables import _choices
 
 CHOICES = ("<!-- cheapest choices of the last run -->", "<!-- end of the cheapest choices -->")
 EQUAL = ("<!-- equal accuracy of the last run -->", "<!-- end of equal accuracy -->")
-HEADINGS = {
-    "L_f": "L_f",
-    "x_front": "x_front(t)",
-    "max_abs_eta": "max\\|eta\\|(t)",
-    "max_abs_eta_outside": "the same beyond R",
-}
-UNUSUAL = {
-    "front_flux": "{} flux at fronts",
-    "wave_speeds": "{} wave speeds",
-    "order": "order {}",
-    "cfl": "CFL {:g}",
-}
-"""Words on values that are not the default."""
-SOLVERS = {"rusanov": "Rusanov", "roe": "Roe"}
-"""Names of solvers that are no abbreviations."""
 
 
-def text(runs: pd.DataFrame, chosen: pd.DataFrame) -> str:
-    """Both tables as aligned text."""
-    return "\n\n".join(aligned(rows) for rows in (choices(chosen), equal(runs)))
-
-
-def renewed(page: str, runs: pd.DataFrame, chosen: pd.DataFrame) -> str:
-    """The page with those of the tables that it has marks for; ConfigError if it has none."""
-    found = [(pair, make) for pair, make in _tables(runs, chosen) if pair[0] in page]
-    if not found:
+def page(text: str, results: Results) -> str:
+    """Return the page `text` with those of a study's tables that it has marks for; ConfigError if it has none."""
+    rows = {
+        CHOICES: _choices.choices(results.table("cheapest")),
+        EQUAL: _choices.equal(results.table("work_precision")),
+    }
+    known = [marks for marks in rows if marks[0] in text]
+    if not known:
         raise ConfigError(f"--output: the page has neither the line '{CHOICES[0]}' nor '{EQUAL[0]}'")
-    for pair, rows in found:
-        page = marks.renewed(page, *pair, rows)
-    return page
-
-
-def _tables(runs: pd.DataFrame, chosen: pd.DataFrame):
-    """Marks and rows of each table."""
-    return ((CHOICES, choices(chosen)), (EQUAL, equal(runs)))
-
-
-def choices(chosen: pd.DataFrame) -> list[tuple[str, ...]]:
-    """Rows, headings first: the cheapest run for each target and column, an entry for each quantity.
-
-    chosen: table of `cheapest`. The last entry is what the paper's method takes beside the default numerics.
-    """
-    head = ("error at most", "a_H", *HEADINGS.values(), "paper's method in the plane, L_f")
-    rows = []
-    for (target, *place), group in chosen.groupby(["target", *runs_of.PLACE], sort=False):
-        kinds = {name: some.set_index("quantity") for name, some in group.groupby("numerics")}
-        entries = [choice(*(kinds[kind].loc[name] for kind in ("any", "default"))) for name in HEADINGS]
-        beside = paper(kinds["default"].loc["L_f"])
-        rows.append((place, -target, (f"{100 * target:g} %", f"{place[0]:g}", *entries, beside)))
-    return [head, *(words for *_, words in sorted(rows))]
-
-
-def choice(best: pd.Series, default: pd.Series) -> str:
-    """Words on the cheapest run of all, and on the cheapest by the default numerics where that is another.
-
-    best, default: rows of the table of cheapest choices.
-    """
-    if not isinstance(best["id"], str):
-        return "none known"
-    words = ", ".join([*unusual(best), *_cost(best)])
-    if best["id"] == default["id"]:
-        return words
-    return (
-        f"{words} (default: {', '.join(_cost(default)) if isinstance(default['id'], str) else 'none known'})"
-    )
-
-
-def _cost(row: pd.Series) -> tuple[str, str]:
-    """Cells and time of a row, in words."""
-    return f"{row['cells']:.0f} cells", seconds(row["seconds"])
-
-
-def unusual(row: pd.Series) -> list[str]:
-    """Words on the numerics of a row that are not the default."""
-    usual = dict(zip(METHOD, DEFAULT, strict=True))
-    words = []
-    for key, value in usual.items():
-        if row[key] != value:
-            name = SOLVERS.get(row[key], row[key].upper()) if key == "scheme" else row[key]
-            words.append(UNUSUAL.get(key, "{}").format(int(name) if key == "order" else name))
-    return words
-
-
-def paper(row: pd.Series) -> str:
-    """What the paper's method takes for the same error, and how many times as long that is."""
-    if not isinstance(row["id"], str) or pd.isna(row["paper_cells"]):
-        return ""
-    reached = bool(row["paper_reaches"])
-    factor = f"{'' if reached else 'over '}{rounded(row['factor'])} times as long"
-    where = f"{row['paper_cells']:.0f} cells, {seconds(row['paper_seconds'])}"
-    return f"{where}: {factor}" if reached else f"not with {where}: {factor}"
-
-
-def equal(runs: pd.DataFrame) -> list[tuple[str, ...]]:
-    """Rows, headings first: each run of the paper's method that reaches its error in L_f, and the default numerics."""
-    rows = [
-        ("a_H", "paper's method: cells", "time", "error in L_f", "default: cells", "time", "error", "factor")
-    ]
-    for _, row in runs_of.reached(runs[runs["quantity"] == "L_f"]).iterrows():
-        same = runs[(runs["method"] == "default") & (runs["quantity"] == row["quantity"])]
-        same = same[(same[list(runs_of.PLACE)] == row[list(runs_of.PLACE)]).all(axis=1)]
-        best = runs_of.cheapest(same.to_dict("records"), row["sure_error"])
-        beside = (
-            (
-                f"{best['cells']:.0f}",
-                seconds(best["seconds"]),
-                percent(best["sure_error"]),
-                rounded(row["factor"]),
-            )
-            if best
-            else ("none",) * 4
-        )
-        about = (
-            f"{row['a_H']:g}",
-            f"{row['cells']:.0f}",
-            seconds(row["seconds"]),
-            percent(row["sure_error"]),
-        )
-        rows.append((*about, *beside))
-    return rows
-
-
-def seconds(value: float) -> str:
-    """A time (s) to two digits, in ms below a second."""
-    number, unit = (1e3 * value, "ms") if value < 0.995 else (value, "s")
-    number = float(f"{number:.2g}")
-    return f"{number:.0f} {unit}" if number >= 10 else f"{number:.2g} {unit}"
-
-
-def percent(value: float) -> str:
-    """A share in per cent, to two digits."""
-    return f"{100 * value:.2g} %" if value < 0.1 else f"{100 * value:.0f} %"
-
-
-def rounded(value: float) -> str:
-    """A factor to two digits, rounded down."""
-    step = 10 ** max(math.floor(math.log10(value)) - 1, 0)
-    return f"{math.floor(value / step) * step:,}"
-
-
-def aligned(rows: list[tuple[str, ...]]) -> str:
-    """Text with the rows' entries in columns."""
-    rows = [tuple(word.replace("\\|", "|") for word in row) for row in rows]
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return "\n".join(
-        "  ".join(word.ljust(width) for word, width in zip(row, widths, strict=True)).rstrip() for row in rows
-    )
+    for marks in known:
+        text = renewal.renewed(text, marks, rows[marks])
+    return text

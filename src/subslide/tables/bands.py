@@ -4,26 +4,26 @@ A run's companions have half and a quarter of its cells, and are otherwise the s
 """
 
 import math
-from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from subslide import fields
+from subslide.fields import FINISHED, FRONT_LABELS
+from subslide.keys.schema import ConfigError
 from subslide.points import Point
+from subslide.study.config import COARSENING, Study
 from subslide.tables import _convergence as convergence
+from subslide.tables._convergence import FORMAL_ORDER
 
-THRESHOLDS = {f"{100 * fraction:g}pc": n for n, fraction in enumerate(fields.FRONT_THRESHOLDS)}
-WAVES = ("max_abs_eta", "max_abs_eta_outside")
-ONCE = (*(f"L_f_{t}" for t in THRESHOLDS), *(f"{name}_peak" for name in WAVES))
-"""Quantities of a run as a whole; the others are taken at the times of its snapshots."""
+if TYPE_CHECKING:
+    from subslide.results import Results
 
-SUMMARY = ("limit", "band", "convergence")
-"""Columns that the table of runs repeats for each quantity of a run as a whole."""
-
+TITLE = "Bands of discretisation error"
+READS = ("records",)
 COLUMNS = {
     "id": ("", "name of the run"),
-    "quantity": ("", "what is compared, see below"),
+    "quantity": ("", "what is compared, see above"),
     "time": ("s", "elapsed time since release; empty for a quantity of the run as a whole"),
     "value": ("m", "value of the run itself"),
     "value_2": ("m", "value of its companion with cells/2"),
@@ -33,20 +33,77 @@ COLUMNS = {
     "band": ("m", "half-width of the band of discretisation error about `value`; wide where not converged"),
     "convergence": ("", f"`{convergence.CONVERGING}` or `{convergence.NOT_CONVERGED}`"),
 }
+WAVES = ("max_abs_eta", "max_abs_eta_outside")
+ONCE = (*(f"L_f_{label}" for label in FRONT_LABELS), *(f"{name}_peak" for name in WAVES))
+"""Quantities of a run as a whole; the others are taken at the times of its snapshots."""
+
 QUANTITIES = {
-    **{f"L_f_{t}": f"final length of the deposit ({t[:-2]} % front)" for t in THRESHOLDS},
+    **{f"L_f_{t}": f"final length of the deposit ({t[:-2]} % front)" for t in FRONT_LABELS},
     "max_abs_eta_peak": "largest displacement of the water surface over all time",
     "max_abs_eta_outside_peak": "the same beyond R",
-    **{f"x_front_{t}": f"front at the times of the snapshots ({t[:-2]} % front)" for t in THRESHOLDS},
+    **{f"x_front_{t}": f"front at the times of the snapshots ({t[:-2]} % front)" for t in FRONT_LABELS},
     "max_abs_eta": "largest displacement of the water surface at the times of the snapshots",
     "max_abs_eta_outside": "the same beyond R",
 }
+SUMMARY = ("limit", "band", "convergence")
+"""Columns that the table of runs repeats for each quantity of a run as a whole."""
+
+MEASURED = ("time", "x_front", "L_f", *WAVES, "snapshot_time", "status")
+"""Variables of records that are compared."""
 
 
-FORMAL_ORDER = 1.0
-"""Best order of these quantities in either scheme: the column is let go with a jump, and no scheme is better than first
-order at what comes of one. Measured at second order (a_H 1 and 10; r 0, 0.4 and 0.8; 234 values on 200 to 1600 cells):
-the band holds the limit from 6400 cells in 94 %; Roache's index with an order up to that of the scheme did in 46 %."""
+def about() -> str:
+    """Return what the documentation says of the table: how its estimates are made, and its quantities."""
+    quantities = "\n".join(f"- `{name}`: {text}" for name, text in QUANTITIES.items())
+    low, safety = convergence.LOWEST_ORDER, convergence.SAFETY
+    return f"""One row for each run, quantity and time, in studies with `bands: true` only. Each run has two companions,
+equal but for their coarser grids, which have no rows elsewhere. From the values f1 (the run), f2 (cells/2) and f3
+(cells/4) follow the observed order p = log2((f3 - f2)/(f2 - f1)), the limit f1 + (f1 - f2)/(2^p - 1) of Richardson's
+extrapolation, and the band {safety} |f1 - f2|/(2^p - 1): the grid convergence index times the value (Roache 1994;
+Celik et al. 2008). Fronts and waves that come of a jump converge at first order in either scheme; where p > 1, f1 and
+f2 agree by chance, and the band is {safety} |f3 - f2|/2, what the coarser pair leaves at first order. So the band
+estimates, with a factor of safety of {safety}, how far the value lies from that on ever finer grids. It is an
+estimate of the error of discretisation alone (on the paper's columns 94 in 100 bands held the answer of a finer grid),
+and says nothing of the model's own error, its parameters, or the threshold that defines a front.
+
+`{convergence.NOT_CONVERGED}`: the differences change sign, grow, or shrink with an order below {low}, or one of the
+three runs failed. Then there is no limit, and the band is thrice the range of the three values (Eca and Hoekstra 2014),
+or empty if a run failed. Where f1 and f2 agree to round-off the limit is f1 and no order is given. Times are those of
+the run's `snapshot_times` after the start.
+
+Quantities:
+
+{quantities}"""
+
+
+def needs(study: Study) -> str:
+    """Return '' for a study with bands."""
+    return "" if study.bands else "bands: true"
+
+
+def table(results: "Results") -> list[dict]:
+    """Return the rows, by column, in the order of the runs; ConfigError if the study has no bands."""
+    companions = {(one.of, one.role): one for one in results.companions}
+    if not companions:
+        raise ConfigError(f"{results.folder} has no companions on coarser grids; allowed: bands: true")
+    known = {one.id: one for one in (*results.runs_of_study, *results.companions)}
+    by_batch = sorted(known.values(), key=lambda one: one.batch)
+    measured = {one.id: measure(record) for one, record in results.each(*MEASURED, among=by_batch)}
+    found = []
+    for run in results.runs_of_study:
+        names = (run.id, *(companions[run.id, role].id for role in COARSENING))
+        found += rows(run.point, *(measured[name] for name in names))
+    return found
+
+
+def summaries(results: "Results") -> dict[str, dict[str, str]]:
+    """Return the columns, as text, that the table of runs has for bands, by id of the run; none without bands."""
+    found = {}
+    for row in results.lines("bands") if results.companions else ():
+        if row["quantity"] in ONCE:
+            parts = {f"{row['quantity']}_{part}": row[part] for part in SUMMARY}
+            found.setdefault(row["id"], {}).update(parts)
+    return found
 
 
 class Measured(NamedTuple):
@@ -56,32 +113,42 @@ class Measured(NamedTuple):
     values: dict[tuple[str, float | None], float]
 
 
-def measure(run) -> Measured:
-    """Values of a run's record (`results.trimmed`) that bands compare.
+def measure(record: dict) -> Measured:
+    """Return the values of a run that bands compare.
 
     Snapshots after the start count, but not the one that a run takes at its end, whose time depends on the grid.
     Series have a sample at every snapshot's time, so interpolation only bridges the round-off of that time.
+
+    Parameters
+    ----------
+    record
+        Variables MEASURED of the run, by name.
     """
-    time = run["time"].values
-    series = {f"x_front_{label}": run["x_front"].values[n] for label, n in THRESHOLDS.items()}
-    series.update((name, run[name].values) for name in WAVES)
-    values = {(f"L_f_{label}", None): float(run["L_f"].values[n]) for label, n in THRESHOLDS.items()}
+    series = {f"x_front_{label}": record["x_front"][n] for label, n in FRONT_LABELS.items()}
+    series.update((name, record[name]) for name in WAVES)
+    values = {(f"L_f_{label}", None): float(record["L_f"][n]) for label, n in FRONT_LABELS.items()}
     for name in WAVES:
         values[f"{name}_peak", None] = float(np.nanmax(series[name], initial=-math.inf))
-    snapshots = run["snapshot_time"].values
-    snapshots = snapshots[np.isfinite(snapshots)][:-1]
+    snapshots = record["snapshot_time"][:-1]
     for name, entries in series.items():
         for instant in snapshots[snapshots > 0]:
-            values[name, float(instant)] = float(np.interp(instant, time, entries))
+            values[name, float(instant)] = float(np.interp(instant, record["time"], entries))
     values = {key: value if math.isfinite(value) else math.nan for key, value in values.items()}
-    return Measured(str(run["status"].values) in ("ok", "not_at_rest"), values)
+    return Measured(record["status"] in FINISHED, values)
 
 
 def rows(point: Point, *grids: Measured) -> Iterator[dict]:
-    """Rows of a run by column. grids: what was measured of it, and of its companions with cells/2 and cells/4.
+    """Give the rows of a run, by column.
 
     A quantity that a finished run does not have (water of a single layer) has no row. If one of the three did not end
     well nothing is said of convergence: a failure is no answer of a grid.
+
+    Parameters
+    ----------
+    point
+        The run's.
+    grids
+        What was measured of it, and of its companions with cells/2 and cells/4.
     """
     fine = grids[0]
     depth = (1 + point.a_H) * point.a_2 * point.radius
@@ -89,19 +156,8 @@ def rows(point: Point, *grids: Measured) -> Iterator[dict]:
         if fine.finished and math.isnan(value):
             continue
         values = [grid.values.get((quantity, time), math.nan) for grid in grids]
-        found = convergence.UNKNOWN
+        estimate = convergence.UNKNOWN
         if all(grid.finished for grid in grids):
             scale = depth if quantity.startswith(WAVES) else 0.0
-            found = convergence.estimate(*values, FORMAL_ORDER, scale=scale, dtype=point.dtype)
-        entries = (point.id, quantity, time, *values, *found)
-        yield dict(zip(COLUMNS, entries, strict=True))
-
-
-def summaries(found: Iterable[dict]) -> dict[str, dict]:
-    """Columns that the table of runs has for bands, by id of the run. found: rows of the table of bands."""
-    columns = {}
-    for row in found:
-        if row["quantity"] in ONCE:
-            parts = {f"{row['quantity']}_{part}": row[part] for part in SUMMARY}
-            columns.setdefault(row["id"], {}).update(parts)
-    return columns
+            estimate = convergence.estimate(*values, FORMAL_ORDER, scale=scale, dtype=point.dtype)
+        yield dict(zip(COLUMNS, (point.id, quantity, time, *values, *estimate), strict=True))

@@ -28,17 +28,23 @@ for, and it may bear more. On a radius the cell at the axis has twice the edge f
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-import pandas as pd
 
-from subslide.files import write_text
 from subslide.points import Point
-from subslide.solver import Run, solve
+from subslide.study.config import Study
 from subslide.tables import _energy as energy
+from subslide.tables._prose import with_constants
 
+if TYPE_CHECKING:
+    from subslide.results import Results
+    from subslide.solver import Run
+
+TITLE = "Largest stable Courant numbers"
+READS = ()
+KERNELS = ("radial:float64", "radial:float64:general", "quarter:float64", "quarter:float64:general")
+FLOAT_FORMAT = "%.10g"
 SAFE, STEP, WIDTH, LEAST, LARGEST = 0.45, 0.15, 0.01, 0.1, 4.0
 THEORY = 1
 SNAPSHOTS = 48
@@ -52,8 +58,7 @@ FINER = 8
 
 
 class Case(NamedTuple):
-    """What is run: a scene with options in a model, its cells, its end in R / sqrt(g H2), and the model in which it is
-    resolved."""
+    """What is run: a scene with options in a model, cells, its end over R / sqrt(g H2), and the reference's model."""
 
     model: str
     scene: str
@@ -64,7 +69,7 @@ class Case(NamedTuple):
 
 
 def wave(shape: str) -> dict:
-    """Options of a surface wave of small amplitude."""
+    """Return the options of a surface wave of small amplitude."""
     return {"amplitude": 0.01, "kind": "surface", "shape": shape}
 
 
@@ -83,7 +88,7 @@ COLUMNS = {
     "scheme": ("", "Riemann solver"),
     "order": ("", "order of accuracy in space and time"),
     "cfl": ("", "Courant number that was tried"),
-    "stable": ("", "whether the run is stable; see below"),
+    "stable": ("", "whether the run is stable; see above"),
     "why_not": ("", "the first criterion that it fails; empty if stable"),
     "limit": ("", "true in the row of the largest stable number"),
     "theory": ("", "theoretical limit"),
@@ -101,29 +106,34 @@ COLUMNS = {
 
 
 class Judge(NamedTuple):
-    """What runs of a case are held against, by quantity: the largest total variation, and the resolved profiles
-    (snapshots, x) at the case's cells; and the distance from these at SAFE, NaN until it is known."""
+    """What runs of a case are held against.
+
+    By quantity the largest total variation, and the resolved profiles (snapshots, x) at the case's cells; and the
+    distance from these at SAFE, NaN until it is known.
+    """
 
     variations: dict[str, float]
     profiles: dict[str, np.ndarray]
     distance: float
 
 
-def write(folder: Path) -> Path:
-    """Path of the table of the search, newly written in the folder of a study."""
-    path = folder / "tables" / "cfl.csv"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    write_text(path, table().to_csv(index=False, float_format="%.10g", lineterminator="\n"))
-    return path
+def about() -> str:
+    """Return what the documentation says of the table: what counts as stable, and theory."""
+    return f"In studies with figures of stability.\n\n{with_constants(__doc__, globals())}"
 
 
-def table(cases=CASES, schemes=SCHEMES, orders=ORDERS) -> pd.DataFrame:
-    """Table of the search, by the columns of `COLUMNS`: a row for each Courant number tried, in the order of trial."""
-    return pd.DataFrame(list(search(cases, schemes, orders)), columns=list(COLUMNS))
+def needs(study: Study) -> str:
+    """Return '' for a study with figures of stability."""
+    return "" if any(name.startswith("stability_") for name in study.figures) else "figures of stability"
+
+
+def table(results: "Results") -> Iterator[dict]:
+    """Give the rows, by column, in the order of trial; the search is the same for every study."""
+    return search()
 
 
 def search(cases=CASES, schemes=SCHEMES, orders=ORDERS) -> Iterator[dict]:
-    """Rows of the table."""
+    """Give a row for each Courant number tried, in the order of trial."""
     for case in cases:
         judge = resolved(case)
         for scheme in schemes:
@@ -132,11 +142,11 @@ def search(cases=CASES, schemes=SCHEMES, orders=ORDERS) -> Iterator[dict]:
 
 
 def limit(case: Case, scheme: str, order: int, judge: Judge) -> list[dict]:
-    """Rows of one scheme and order; `limit` is true in one of them, or in none if no number tried is stable."""
+    """Return the rows of one scheme and order; `limit` is true in one of them, or in none if none is stable."""
     start = solve(point(case, scheme, order, SAFE))
     if start.status == "ok":
-        own = {name: variation(values) for name, values in known(start).items()}
-        most = {name: max(own[name], judge.variations[name]) for name in own}
+        varied = {name: variation(values) for name, values in known(start).items()}
+        most = {name: max(varied[name], judge.variations[name]) for name in varied}
         judge = Judge(most, judge.profiles, distance(start, judge.profiles))
     rows = [tried(start, judge)]
 
@@ -162,19 +172,19 @@ def limit(case: Case, scheme: str, order: int, judge: Judge) -> list[dict]:
 
 
 def point(case: Case, scheme: str, order: int, cfl: float) -> Point:
-    """Point of a case at a Courant number."""
+    """Return the point of a case at a Courant number."""
     r = 0.0 if case.model == "one-layer" else Point.r
     options = tuple(sorted(case.options.items()))
-    own = Point(scene=case.scene, scene_options=options, model=case.model, r=r, delta=0.0, boundary="wall")
-    end = case.end * math.sqrt(own.radius / (own.g * own.a_2))
+    plain = Point(scene=case.scene, scene_options=options, model=case.model, r=r, delta=0.0, boundary="wall")
+    end = case.end * math.sqrt(plain.radius / (plain.g * plain.a_2))
     times = tuple(end * (n + 1) / SNAPSHOTS for n in range(SNAPSHOTS))
     return replace(
-        own, cells=case.cells, scheme=scheme, order=order, cfl=cfl, t_end=end, snapshot_times=times
+        plain, cells=case.cells, scheme=scheme, order=order, cfl=cfl, t_end=end, snapshot_times=times
     )
 
 
 def resolved(case: Case) -> Judge:
-    """What the runs of a case are held against, from a run of the default numerics on FINER times the cells."""
+    """Return what the runs of a case are held against, from a run of the default numerics on FINER times the cells."""
     usual = point(case, Point.scheme, Point.order, Point.cfl)
     fine = solve(replace(usual, cells=FINER * case.cells, model=case.resolved))
     x = solve(replace(usual, t_end=1e-6, snapshot_times=())).x
@@ -189,10 +199,10 @@ def resolved(case: Case) -> Judge:
     )
 
 
-def tried(run: Run, judge: Judge) -> dict:
-    """Entries of a row that follow from its run."""
+def tried(run: "Run", judge: Judge) -> dict:
+    """Return the entries of a row that follow from its run."""
     ended = run.status == "ok"
-    found = {
+    measured = {
         "volume_drift": max(change(run.sediment_volume), change(run.water_volume)),
         "energy_rise": energy.rise(
             run.point, run.model, run.box_half_width, run.energy, run.water_volume, run.sediment_volume
@@ -206,34 +216,41 @@ def tried(run: Run, judge: Judge) -> dict:
     }
     passed = {
         f"status {run.status}": ended,
-        "volume": found["volume_drift"] <= VOLUME,
-        "energy": found["energy_rise"] <= GIVEN_BACK * run.dx / run.point.radius,
-        "total variation": found["variation"] <= VARIATION,
-        "distance": found["distance"] <= DISTANCE,
+        "volume": measured["volume_drift"] <= VOLUME,
+        "energy": measured["energy_rise"] <= GIVEN_BACK * run.dx / run.point.radius,
+        "total variation": measured["variation"] <= VARIATION,
+        "distance": measured["distance"] <= DISTANCE,
     }
     why = next((name for name, good in passed.items() if not good), "")
     about = {"cfl": run.point.cfl, "stable": not why, "why_not": why, "limit": False}
-    return {**about, "status": run.status, "steps": run.steps, **found}
+    return {**about, "status": run.status, "steps": run.steps, **measured}
 
 
-def known(run: Run) -> dict[str, np.ndarray]:
-    """Profiles (snapshots, x) of a run over H2, by quantity; what a model lacks is left out."""
+def solve(point: Point) -> "Run":
+    """Return the solved run of a point."""
+    from subslide import solver
+
+    return solver.solve(point)
+
+
+def known(run: "Run") -> dict[str, np.ndarray]:
+    """Return the profiles (snapshots, x) of a run over H2, by quantity; what a model lacks is left out."""
     height = run.point.a_2 * run.point.radius
-    found = {"h2": run.h2 / height, "eta": run.eta / height}
-    return {name: values for name, values in found.items() if not np.isnan(values[0]).all()}
+    profiles = {"h2": run.h2 / height, "eta": run.eta / height}
+    return {name: values for name, values in profiles.items() if not np.isnan(values[0]).all()}
 
 
 def variation(values: np.ndarray) -> float:
-    """Largest total variation over the snapshots of profiles (snapshots, x)."""
+    """Return the largest total variation over the snapshots of profiles (snapshots, x)."""
     return float(np.abs(np.diff(values, axis=1)).sum(axis=1).max())
 
 
-def distance(run: Run, reference: dict[str, np.ndarray]) -> float:
-    """Mean |difference| of a run's h2 and eta from the reference's over snapshots and cells."""
+def distance(run: "Run", reference: dict[str, np.ndarray]) -> float:
+    """Return the mean |difference| of a run's h2 and eta from the reference's over snapshots and cells."""
     return float(np.mean([np.abs(values - reference[name]).mean() for name, values in known(run).items()]))
 
 
 def change(volume: np.ndarray) -> float:
-    """Largest relative change of a volume while it is finite; 0 where the model lacks it."""
+    """Return the largest relative change of a volume while it is finite; 0 where the model lacks it."""
     volume = volume[np.isfinite(volume)]
     return float(np.abs(volume / volume[0] - 1).max()) if len(volume) and volume[0] else 0.0

@@ -5,18 +5,18 @@ and their bands alone.
 """
 
 import textwrap
-from pathlib import Path
+from typing import TYPE_CHECKING
 
-import pandas as pd
-
-from subslide.files import write_text
 from subslide.keys.schema import ConfigError
-from subslide.results import Results
-from subslide.tables._claims import grains, page, surface
-from subslide.tables._claims.evidence import Evidence
-from subslide.tables._claims.verdicts import OPEN, REFUTED, SUPPORTED
+from subslide.study.config import Study
+from subslide.tables._claims.words import OPEN, REFUTED, SUPPORTED
 
-CLAIMS = (*grains.CLAIMS, *surface.CLAIMS)
+if TYPE_CHECKING:
+    from subslide.results import Results
+
+TITLE = "The paper's claims, held against this study"
+CATEGORY = "6 The paper's claims"
+READS = ("runs", "series", "bands")
 KINDS = {"paper": "paper_numerics", "resolved": "resolved"}
 """Numerics that are judged, and the columns they have."""
 
@@ -36,41 +36,64 @@ COLUMNS = {
 }
 
 
-def judged(results: Results) -> pd.DataFrame:
-    """Table of claims, by the columns of `COLUMNS`; those that the study cannot judge are left out."""
+def about() -> str:
+    """Return what the documentation says of the table: how its verdicts are made."""
+    return f"""One row for each thing that sections 4 and 5 of the source paper say of its results, in studies with
+both numerics `paper` and `resolved`; `subslide claims results/<study>` writes it, claims.html beside it, and prints the
+same. Each is broken down into comparisons, such as L_f at one r against the next. `{SUPPORTED}`: every one
+holds by more than the bands of the values compared; `{REFUTED}`: one fails by more than that (or all fail, where
+the paper says that something happens somewhere); else `{OPEN}`, also where a value that decides is not
+converged. Without bands numbers count as they are. A claim is left out where the study lacks what it needs. Judged are
+the runs that differ from the first of their numerics in a_H and r alone. Times have no bands of their own: that of the
+front's arrival is what the band of L_f moves it by."""
+
+
+def needs(study: Study) -> str:
+    """Return '' for a study with both kinds of numerics."""
+    return "" if set(KINDS) <= {label for label, _ in study.runs} else f"numerics: {' and '.join(KINDS)}"
+
+
+def table(results: "Results") -> list[dict]:
+    """Return the rows, by column; claims that the study cannot judge are left out.
+
+    Raises
+    ------
+    ConfigError
+        If the study can judge none.
+    """
+    from subslide.tables._claims import grains, surface
+    from subslide.tables._claims.evidence import Evidence
+
     evidence = {column: Evidence(results, kind) for kind, column in KINDS.items()}
     rows = []
-    for claim in CLAIMS:
+    for claim in (*grains.CLAIMS, *surface.CLAIMS):
         row = {"claim": claim.words, "section": claim.section, "measure": claim.measure}
-        for column, given in evidence.items():
-            found = claim.judge(given) if len(given.runs) else None
-            if found:
-                parts = (found.stated(), found.verdict(banded=False), found.verdict())
+        for column, of_kind in evidence.items():
+            finding = claim.judge(of_kind) if len(of_kind.runs) else None
+            if finding:
+                parts = (finding.stated(), finding.verdict(banded=False), finding.verdict())
                 row |= dict(zip((column, f"{column}_as_computed", f"{column}_verdict"), parts, strict=True))
         if len(row) > 3:
-            rows.append(row)
-    return pd.DataFrame(rows, columns=list(COLUMNS), dtype=object).fillna("")
-
-
-def write(folder: Path) -> tuple[list[Path], str]:
-    """Paths of the table of claims of the study in `folder` and of its page, newly written, and the same as text."""
-    if not (folder / "tables" / "runs.csv").is_file():
-        raise ConfigError(f"{folder}: it has no tables/runs.csv; allowed: the folder of a finished study")
-    table = judged(Results(folder))
-    if table.empty:
+            rows.append({name: row.get(name, "") for name in COLUMNS})
+    if not rows:
         raise ConfigError(
-            f"{folder}: it has no runs that a claim speaks of; allowed: a study with numerics {' or '.join(KINDS)}"
+            f"{results.folder}: it has no runs that a claim speaks of; allowed: a study with numerics"
+            f" {' or '.join(KINDS)}"
         )
-    paths = [folder / "tables" / f"claims.{kind}" for kind in ("csv", "html")]
-    write_text(paths[0], table.to_csv(index=False, lineterminator="\n"))
-    write_text(paths[1], page.html(table, KINDS))
-    return paths, text(table)
+    return rows
 
 
-def text(table: pd.DataFrame, width: int = 110) -> str:
-    """The table of claims as lines to read: each claim, what was computed, numbers and verdicts."""
+def html(rows: list[dict]) -> str:
+    """Return the table as a page (HTML, self-contained)."""
+    from subslide.tables._claims import page
+
+    return page.html(rows, KINDS)
+
+
+def text(results: "Results", width: int = 110) -> str:
+    """Return the table as lines to read: each claim, what was computed, numbers and verdicts."""
     lines = []
-    for row in table.to_dict("records"):
+    for row in results.lines("claims"):
         lines += [f"{row['claim']} [section {row['section']}]", *_hung("measure", row["measure"], width)]
         for kind, column in KINDS.items():
             if row[column]:
@@ -81,5 +104,5 @@ def text(table: pd.DataFrame, width: int = 110) -> str:
 
 
 def _hung(name: str, words: str, width: int) -> list[str]:
-    """Lines of a paragraph that hangs from its name."""
+    """Return the lines of a paragraph that hangs from its name."""
     return textwrap.wrap(words, width, initial_indent=f"  {name:9s} ", subsequent_indent=" " * 12)

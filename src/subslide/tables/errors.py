@@ -21,38 +21,38 @@ edge on any grid: the difference is no error of the scheme, falls at no order an
 import json
 import math
 from collections.abc import Iterator
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
-import xarray as xr
 
-from subslide import exact
-from subslide.files import write_text
-from subslide.points import RUN_KEYS, Point, from_dict, options_text
-from subslide.results import Results, trimmed
-from subslide.tables import bands
+from subslide import catalogue, exact
+from subslide.fields import FRONT_LABELS
+from subslide.keys import schema
+from subslide.points import Point, options_text, to_dict
+from subslide.study.config import Study
 
+if TYPE_CHECKING:
+    from subslide.results import Results
+
+TITLE = "Errors against exact solutions"
+READS = ("records",)
+FLOAT_FORMAT = "%.10g"
+METHOD = schema.with_role("method")
 COLUMNS = {
     "id": ("", "name of the run"),
     "scene": ("", "initial state"),
     "options": ("", "options of the scene (JSON)"),
-    "scheme": ("", "Riemann solver"),
-    "front_flux": ("", "flux into a dry cell"),
-    "wave_speeds": ("", "wave speeds of the Riemann solver"),
-    "order": ("", "order of accuracy in space and time"),
+    **{key: (schema.unit(key), schema.properties()[key]["description"]) for key in METHOD},
     "model": ("", "geometry that was solved"),
-    "cells": ("", "cell size as a count; see config/README.md"),
-    "dtype": ("", "floating-point type of the state"),
     "time": ("s", "elapsed time since release"),
-    "quantity": ("", "what is compared, see below"),
+    "quantity": ("", "what is compared, see above"),
     "error": ("", "relative error; empty where the run failed before that time"),
     "observed_order": (
         "",
         "log(e2/e1) / log(cells1/cells2) against the next coarser run, equal but for its cells",
     ),
     "expected_order": ("", "least order that counts as reached; empty where none is expected"),
-    "verdict": ("", "see below"),
+    "verdict": ("", "see above"),
 }
 QUANTITIES = {
     "h2": "depth of the grains: sum of |error| over the sum of |exact|, each cell (on a radius each ring) by its size;"
@@ -60,7 +60,7 @@ QUANTITIES = {
     "eta": "displacement of the water surface, likewise; for a dam break of water over its depth",
     **{
         f"x_front_{t}": f"how far the front at {t[:-2]} % of H2 is behind the exact edge, over the edge's distance"
-        for t in bands.THRESHOLDS
+        for t in FRONT_LABELS
     },
     "h2_change": "grains that must stay at rest: largest change of their depth since the start, over H2",
 }
@@ -84,101 +84,115 @@ EXPECTED = {
 """Least expected orders of schemes of first and second order, by scene, or by scene and model."""
 REQUIRED = ("standing_wave", "paraboloid one-layer")
 """Keys of EXPECTED without which `subslide verify` fails; so do grains at rest that move."""
-READ = ("h2", "eta", "snapshot_time", "time", "x_front", "dx", "model", "steps")
-"""Variables of records that errors follow from."""
+MEASURED = ("x", "h2", "eta", "snapshot_time", "time", "x_front", "dx", "model")
+"""Variables of records that the table follows from."""
 GAUSS = ((-math.sqrt(0.6), 5 / 18), (0.0, 8 / 18), (math.sqrt(0.6), 5 / 18))
 """Places in a cell from -1 to 1 and weights of Gauss's quadrature."""
 
 
-def write(folder: Path) -> Path:
-    """Path of the table of errors of the study in `folder`, newly written."""
-    path = folder / "tables" / "errors.csv"
-    path.parent.mkdir(exist_ok=True)
-    write_text(path, table(Results(folder)).to_csv(index=False, float_format="%.10g", lineterminator="\n"))
-    return path
+def about() -> str:
+    """Return what the documentation says of the table: its quantities and verdicts."""
+    quantities = "\n".join(f"- `{name}`: {text}" for name, text in QUANTITIES.items())
+    verdicts = "\n".join(f"- `{name}`: {text}" for name, text in VERDICTS.items())
+    return f"""One row for each run, quantity and time with a known answer, in studies that have a scene with an exact
+solution. Times are those of `snapshot_times` after the start, and `t_end` where it is a time. Reasons for the expected
+orders: docs/verification.md.
+
+Quantities:
+
+{quantities}
+
+Verdicts:
+
+{verdicts}"""
 
 
-def table(results: Results) -> pd.DataFrame:
-    """Table of errors: rows in the order of the runs, then by time and quantity."""
-    batches, rows, families = {}, [], {}
-    for row in results.points:
-        if row["scene"] not in exact.NAMES:
-            continue
-        if row["batch"] not in batches:
-            batches[row["batch"]] = results.batch(row["batch"])[list(READ)].load()
-        for found in run_rows(_point(row), trimmed(batches[row["batch"]], row["id"])):
-            rows.append(found)
-            families.setdefault(_family(row, found), []).append(found)
+def needs(study: Study) -> str:
+    """Return '' for a study that has a scene with an exact solution."""
+    known = catalogue.names("exact")
+    return "" if any(point.scene in known for point in study.points) else f"scene: {' or '.join(known)}"
+
+
+def table(results: "Results") -> list[dict]:
+    """Return the rows, by column, in the order of the runs, then by time and quantity."""
+    known = catalogue.names("exact")
+    solved = [run for run in results.runs_of_study if run.point.scene in known]
+    rows, families = [], {}
+    for run, record in results.each(*MEASURED, among=solved):
+        for row in run_rows(run.point, record):
+            rows.append(row)
+            families.setdefault(_family(run.point, row), []).append(row)
     for family in families.values():
         judge(family)
-    return pd.DataFrame(rows, columns=list(COLUMNS))
+    return rows
 
 
-def run_rows(point: Point, run: xr.Dataset) -> Iterator[dict]:
-    """Rows of one run, without orders: one for each quantity and time with a known answer."""
+def text(results: "Results") -> str:
+    """Return errors and observed orders as lines to read."""
+    from subslide.tables import _orders
+
+    return _orders.text(_orders.lines(results.errors)) if len(results.errors) else "no run has a known answer"
+
+
+def run_rows(point: Point, record: dict) -> Iterator[dict]:
+    """Give the rows of one run, without orders: one for each quantity and time with a known answer."""
     answer = exact.load(point.scene)
-    about = {"id": point.id, "scene": point.scene, "options": options_text(point)}
-    about |= {key: getattr(point, key) for key in ("scheme", "front_flux", "wave_speeds", "order")}
-    about |= {"model": str(run["model"].values), "cells": point.cells, "dtype": point.dtype}
-    about["expected_order"] = expected(point, about["model"])[0]
-    for time in times(point, run):
-        for quantity, error in errors_at(answer, point, run, time):
+    about_run = {"id": point.id, "scene": point.scene, "options": options_text(point)}
+    about_run |= {key: getattr(point, key) for key in METHOD} | {"model": record["model"]}
+    order = expected(point, record["model"])[0]
+    for time in times(point, record):
+        for quantity, error in errors_at(answer, point, record, time):
             plain = quantity in ("h2", "eta")
-            yield {
-                **about,
-                "time": time,
-                "quantity": quantity,
-                "error": error,
-                "expected_order": about["expected_order"] if plain else math.nan,
-            }
+            row = {"time": time, "quantity": quantity, "error": error}
+            yield {**about_run, **row, "expected_order": order if plain else math.nan}
 
 
 def defaults(scene: str) -> dict:
-    """Options of a scene that its exact solution assumes where a point leaves them out."""
+    """Return the options of a scene that its exact solution assumes where a point leaves them out."""
     return getattr(exact.load(scene), "DEFAULTS", {})
 
 
 def expected(point: Point, model: str) -> tuple[float, bool]:
-    """Least expected order of a run (NaN if none), and whether verification requires it."""
+    """Return the least expected order of a run (NaN if none), and whether verification requires it."""
     for key in (f"{point.scene} {model}", point.scene):
         if key in EXPECTED:
             return EXPECTED[key][point.order - 1], key in REQUIRED
     return math.nan, False
 
 
-def times(point: Point, run: xr.Dataset) -> list[float]:
-    """Times (s) after the start at which runs on every grid have profiles: not the end of a run to rest."""
-    found = [float(time) for time in np.atleast_1d(run["snapshot_time"].values)][:-1]
+def times(point: Point, record: dict) -> list[float]:
+    """Return the times (s) after the start at which runs on every grid have profiles: not the end of a run to rest."""
+    instants = [float(time) for time in record["snapshot_time"]][:-1]
     if point.t_end is not None:
-        found.append(point.t_end)
-    return sorted({time for time in found if time > 0})
+        instants.append(point.t_end)
+    return sorted({time for time in instants if time > 0})
 
 
-def errors_at(answer, point: Point, run: xr.Dataset, time: float) -> Iterator[tuple[str, float]]:
-    """Quantity and error of each known answer at one time; NaN if the run ended before."""
+def errors_at(answer, point: Point, record: dict, time: float) -> Iterator[tuple[str, float]]:
+    """Give quantity and error of each known answer at one time; NaN if the run ended before."""
     if hasattr(answer, "stays"):
         if answer.stays(point):
-            yield "h2_change", _change(point, _profile(run, "h2", time), _profile(run, "h2", 0.0))
+            yield "h2_change", _change(point, _profile(record, "h2", time), _profile(record, "h2", 0.0))
         return
-    known = cell_means(answer, point, run, time)
-    weight = weights(run)
+    known = cell_means(answer, point, record, time)
+    weight = weights(record)
     for quantity, values in known.items():
-        if not np.isfinite(run[quantity].values).any():  # water of a model without water
+        if not np.isfinite(record[quantity]).any():  # water of a model without water
             continue
         size = scale(answer, point, quantity, time, values, weight)
         if np.isfinite(values).all() and size > 0:
-            solved = _profile(run, quantity, time)
+            solved = _profile(record, quantity, time)
             yield quantity, float((weight * np.abs(solved - values)).sum() / size)
     if point.delta > 0 and hasattr(answer, "edge_known") and answer.edge_known(point, time):
         edge = answer.edge_position(point, time)
-        for label, n in bands.THRESHOLDS.items():
-            yield f"x_front_{label}", 1 - _front(run, n, time) / edge
+        for label, n in FRONT_LABELS.items():
+            yield f"x_front_{label}", 1 - _front(record, n, time) / edge
 
 
-def cell_means(answer, point: Point, run: xr.Dataset, time: float) -> dict[str, np.ndarray]:
-    """Exact h2 and eta (m) by cell or ring, of Gauss's quadrature with three points."""
-    x, dx = run["x"].values, float(run["dx"])
-    ring = is_round(run)
+def cell_means(answer, point: Point, record: dict, time: float) -> dict[str, np.ndarray]:
+    """Return the exact h2 and eta (m) by cell or ring, of Gauss's quadrature with three points."""
+    x, dx = record["x"], float(record["dx"])
+    ring = is_round(record)
     total, size = {}, 0.0
     for place, share in GAUSS:
         spot = x + 0.5 * dx * place
@@ -189,20 +203,22 @@ def cell_means(answer, point: Point, run: xr.Dataset, time: float) -> dict[str, 
     return {quantity: values / size for quantity, values in total.items()}
 
 
-def is_round(run: xr.Dataset) -> bool:
-    """Whether the cells of a profile stand for rings: a line alone reaches across the axis with a model that is no
-    plane."""
-    return float(run["x"].values[0]) > 0 or str(run["model"].values) == "plane"
+def is_round(record: dict) -> bool:
+    """Return whether the cells of a profile stand for rings.
+
+    A line alone reaches across the axis with a model that is no plane.
+    """
+    return float(record["x"][0]) > 0 or record["model"] == "plane"
 
 
-def weights(run: xr.Dataset) -> np.ndarray:
-    """Relative sizes of the cells or rings of a profile."""
-    x = run["x"].values
-    return np.abs(x) if is_round(run) else np.ones(len(x))
+def weights(record: dict) -> np.ndarray:
+    """Return the relative sizes of the cells or rings of a profile."""
+    x = record["x"]
+    return np.abs(x) if is_round(record) else np.ones(len(x))
 
 
 def scale(answer, point: Point, quantity: str, time: float, values: np.ndarray, weight: np.ndarray) -> float:
-    """What an error is relative to, in the unit of sum(weight * |error|); 0 where nothing is compared."""
+    """Return what an error is relative to, in the unit of sum(weight * |error|); 0 where nothing is compared."""
     height = point.a_2 * point.radius
     if hasattr(answer, "amplitude"):
         return float(weight.sum()) * answer.amplitude(point, time) * height
@@ -212,7 +228,7 @@ def scale(answer, point: Point, quantity: str, time: float, values: np.ndarray, 
 
 
 def judge(family: list[dict]) -> None:
-    """Nothing; rows that differ in their cells alone get observed orders and verdicts."""
+    """Give rows that differ in their cells alone their observed orders and verdicts."""
     coarser = None
     for row in sorted(family, key=lambda row: row["cells"]):
         p = order_between(coarser, row) if coarser else math.nan
@@ -221,14 +237,14 @@ def judge(family: list[dict]) -> None:
 
 
 def order_between(coarse, fine) -> float:
-    """Observed order between two rows; NaN where an error is 0 or unknown."""
+    """Return the observed order between two rows; NaN where an error is 0 or unknown."""
     if not (coarse["error"] > 0 and fine["error"] > 0):
         return math.nan
     return math.log(coarse["error"] / fine["error"]) / math.log(fine["cells"] / coarse["cells"])
 
 
 def verdict(row, p: float, first: bool) -> str:
-    """Word on a row with the observed order p; see VERDICTS."""
+    """Return the word on a row with the observed order p; see VERDICTS."""
     if not math.isfinite(row["error"]):
         return FAILED
     if row["quantity"] == "h2_change":
@@ -242,28 +258,25 @@ def verdict(row, p: float, first: bool) -> str:
     return REACHED if p >= row["expected_order"] else BELOW
 
 
-def _family(row: dict, found: dict) -> str:
-    """Text that is equal for rows of runs that differ in their cells alone."""
-    same = {key: row[key] for key in RUN_KEYS if key != "cells"}
-    return json.dumps([same, found["quantity"], found["time"]], sort_keys=True)
+def _family(point: Point, row: dict) -> str:
+    """Return a text that is equal for rows of runs that differ in their cells alone."""
+    same = {key: value for key, value in to_dict(point).items() if key != "cells"}
+    return json.dumps([same, row["quantity"], row["time"]], sort_keys=True)
 
 
-def _point(row: dict) -> Point:
-    return from_dict({key: row[key] for key in RUN_KEYS})
-
-
-def _profile(run: xr.Dataset, quantity: str, time: float) -> np.ndarray:
-    """Profile (m) at a time, NaN if the run has none."""
-    shots = np.atleast_1d(run["snapshot_time"].values)
+def _profile(record: dict, quantity: str, time: float) -> np.ndarray:
+    """Return the profile (m) at a time, NaN if the run has none."""
+    shots = record["snapshot_time"]
     place = int(np.argmin(np.abs(shots - time)))
     near = abs(shots[place] - time) <= 1e-9 * max(time, 1e-12)
-    return run[quantity].values[place] if near else np.full(len(run["x"]), math.nan)
+    return record[quantity][place] if near else np.full(len(record["x"]), math.nan)
 
 
 def _change(point: Point, later: np.ndarray, start: np.ndarray) -> float:
+    """Return the largest change of the depth of grains over H2."""
     return float(np.max(np.abs(later - start))) / (point.a_2 * point.radius)
 
 
-def _front(run: xr.Dataset, n: int, time: float) -> float:
-    """Front (m) at threshold n and a time, NaN if the run ended before."""
-    return float(np.interp(time, run["time"].values, run["x_front"].values[n], right=math.nan))
+def _front(record: dict, n: int, time: float) -> float:
+    """Return the front (m) at threshold n and a time, NaN if the run ended before."""
+    return float(np.interp(time, record["time"], record["x_front"][n], right=math.nan))

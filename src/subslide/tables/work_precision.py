@@ -1,36 +1,35 @@
 """The table of errors and seconds: a row for each run and quantity of each problem of a study."""
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
-import xarray as xr
 
+from subslide.fields import FINISHED
+from subslide.keys import schema
 from subslide.keys.schema import ConfigError
-from subslide.points import RUN_KEYS, Point, from_dict
-from subslide.results import Results, trimmed
+from subslide.points import Point
+from subslide.study.config import Study
 from subslide.tables import _convergence as convergence
-from subslide.tables import bands
 from subslide.tables._problems import METHOD, NAMES, Problem, edge_time, end_time, method, problems
 
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from subslide.results import Results
+
+TITLE = "Error and seconds of every choice of numerics"
+READS = ("records",)
+FLOAT_FORMAT = "%.8g"
 TIMES = 200
 """Times, equally far apart, at which a series is compared."""
 PLACE = ("a_H", "a_2", "r", "delta", "radius")
 COLUMNS = {
     "id": ("", "name of the run"),
-    "a_H": ("", "water depth above the column over the column's height"),
-    "a_2": ("", "aspect ratio of the column"),
-    "r": ("", "density of water over density of grains"),
-    "delta": ("degree", "friction angle"),
-    "radius": ("m", "initial radius of the column"),
-    "quantity": ("", "what is compared, see below"),
+    **{key: (schema.unit(key), schema.properties()[key]["description"]) for key in PLACE},
+    "quantity": ("", "what is compared, see above"),
+    **{key: (schema.unit(key), schema.properties()[key]["description"]) for key in METHOD},
     "model": ("", "geometry that was solved"),
-    "scheme": ("", "Riemann solver"),
-    "front_flux": ("", "flux into a dry cell"),
-    "wave_speeds": ("", "wave speeds of the Riemann solver"),
-    "order": ("", "order of accuracy in space and time"),
-    "dtype": ("", "floating-point type of the state"),
-    "cfl": ("", "Courant number"),
     "cells": ("", "cell size as a count; see config/README.md"),
     "method": (
         "",
@@ -60,35 +59,54 @@ QUANTITIES = {
     "max_abs_eta": "largest displacement of the water surface over time, until waves reach the edge of the box",
     "max_abs_eta_outside": "the same beyond R",
 }
-READ = ("L_f", "x_front", "max_abs_eta", "max_abs_eta_outside", "time", "status", "wall_seconds", "steps")
-"""Variables of records that are read."""
+WAVES = ("max_abs_eta", "max_abs_eta_outside")
+MEASURED = ("L_f", "x_front", *WAVES, "time", "status", "wall_seconds")
+"""Variables of records that the table follows from."""
+NO_SWEEP = (
+    "sweep of numerics: one column in the plane and, by the default numerics, on three grids on a radius;"
+    " allowed: the folder of a study such as accuracy"
+)
 
 
-def table(results: Results) -> pd.DataFrame:
-    """Table by COLUMNS, sorted as the study is within each problem and quantity; ConfigError without a problem."""
-    rows = {row["id"]: row for row in results.points}
-    found = problems(from_dict({key: row[key] for key in RUN_KEYS}) for row in rows.values())
-    if not found:
-        raise ConfigError(
-            f"{results.folder} has no sweep of numerics: one column in the plane and, by the default numerics, on three"
-            " grids on a radius; allowed: the folder of a study such as accuracy"
-        )
-    batches, entries = {}, []
-    for problem in found:
-        runs = {}
-        for point in problem.points:
-            batch = rows[point.id]["batch"]
-            if batch not in batches:
-                batches[batch] = results.batch(batch)[list(READ)].load()
-            runs[point.id] = trimmed(batches[batch], point.id)
-        entries += problem_rows(problem, runs)
-    return pd.DataFrame(entries, columns=list(COLUMNS))
+def about() -> str:
+    """Return what the documentation says of the table: where it is, and its quantities."""
+    quantities = "\n".join(f"- `{name}`: {text}" for name, text in QUANTITIES.items())
+    return f"""One row for each run and quantity, in studies that solve a column in the plane and, by the default
+numerics, on three grids on a radius of which each has twice the cells of the next. The three finest of these give the
+truth: Richardson's limit, with the band of bands.csv about it. The error is the mean of |value - truth| over the mean
+of the truth: of one length, or of a series at {TIMES} times. docs/work_precision.md has the reasons.
+
+Quantities:
+
+{quantities}"""
 
 
-def problem_rows(problem: Problem, runs: dict[str, xr.Dataset]) -> list[dict]:
-    """Rows of one problem. runs: record of each point by its id."""
-    solved = {point.id: values(point, runs[point.id]) for point in problem.points}
-    found = []
+def needs(study: Study) -> str:
+    """Return '' for a study with a sweep of numerics."""
+    return "" if problems(study.points) else NO_SWEEP
+
+
+def table(results: "Results") -> list[dict]:
+    """Return the rows, by column, as the study is sorted within each problem and quantity.
+
+    Raises
+    ------
+    ConfigError
+        If the study has no sweep of numerics.
+    """
+    runs = {run.id: run for run in results.runs_of_study}
+    columns = problems(run.point for run in runs.values())
+    if not columns:
+        raise ConfigError(f"{results.folder} has no {NO_SWEEP}")
+    swept = [runs[point.id] for problem in columns for point in problem.points]
+    records = {run.id: record for run, record in results.each(*MEASURED, among=swept)}
+    return [row for problem in columns for row in problem_rows(problem, records)]
+
+
+def problem_rows(problem: Problem, records: dict[str, dict]) -> list[dict]:
+    """Return the rows of one problem from the record of each point by its id."""
+    solved = {point.id: values(point, records[point.id]) for point in problem.points}
+    judged = []
     for quantity in QUANTITIES:
         truth, band = converged(problem.truth[0], quantity, *(solved[p.id][quantity] for p in problem.truth))
         rows = [
@@ -99,8 +117,8 @@ def problem_rows(problem: Problem, runs: dict[str, xr.Dataset]) -> list[dict]:
                 "quantity": quantity,
                 "cells": point.cells,
                 "method": NAMES.get(method(point), ""),
-                "status": str(runs[point.id]["status"].values),
-                "seconds": float(runs[point.id]["wall_seconds"]),
+                "status": records[point.id]["status"],
+                "seconds": float(records[point.id]["wall_seconds"]),
                 "error": relative(solved[point.id][quantity] - truth, truth),
                 "truth": float(np.mean(truth)),
                 "uncertainty": relative(band, truth),
@@ -108,48 +126,47 @@ def problem_rows(problem: Problem, runs: dict[str, xr.Dataset]) -> list[dict]:
             for point in problem.points
         ]
         judge(rows)
-        found += rows
-    return found
+        judged += rows
+    return judged
 
 
-def values(point: Point, run: xr.Dataset) -> dict[str, np.ndarray]:
-    """Values (m) of each quantity, one or one for each time; NaN where the run failed or ended before."""
-    fine = str(run["status"].values) in ("ok", "not_at_rest")
-    time = run["time"].values
-    found = {"L_f": run["L_f"].values[:1], "x_front": _at(end_time(point), time, run["x_front"].values[0])}
-    for name in bands.WAVES:
-        found[name] = _at(edge_time(point), time, run[name].values)
-    return {name: entries if fine else np.full(len(entries), np.nan) for name, entries in found.items()}
+def values(point: Point, record: dict) -> dict[str, np.ndarray]:
+    """Return the values (m) of each quantity, one or one for each time; NaN where the run failed or ended before."""
+    time = record["time"]
+    series = {"L_f": record["L_f"][:1], "x_front": _at(end_time(point), time, record["x_front"][0])}
+    series |= {name: _at(edge_time(point), time, record[name]) for name in WAVES}
+    answered = record["status"] in FINISHED
+    return {name: entries if answered else np.full(len(entries), np.nan) for name, entries in series.items()}
 
 
 def _at(end: float, time: np.ndarray, series: np.ndarray) -> np.ndarray:
-    """Series (m) at TIMES times after 0 up to `end` (s); NaN if it stops before."""
+    """Return the series (m) at TIMES times after 0 up to `end` (s); NaN if it stops before."""
     late = time[-1] < end * (1 - 1e-9)
     wanted = end * np.arange(1, TIMES + 1) / TIMES
     return np.full(TIMES, np.nan) if late else np.interp(wanted, time, series)
 
 
 def converged(point: Point, quantity: str, *grids: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Truth and half-width of its band (m), value by value, from three grids, the finest first.
+    """Return the truth and the half-width of its band (m), value by value, from three grids, the finest first.
 
     The truth is the limit of Richardson's extrapolation, or, where three values show no order, the finest of them.
     """
-    scale = (1 + point.a_H) * point.a_2 * point.radius if quantity in bands.WAVES else 0.0
-    found = [
-        convergence.estimate(*(float(f) for f in three), bands.FORMAL_ORDER, scale=scale)
+    scale = (1 + point.a_H) * point.a_2 * point.radius if quantity in WAVES else 0.0
+    estimates = [
+        convergence.estimate(*(float(f) for f in three), convergence.FORMAL_ORDER, scale=scale)
         for three in zip(*grids, strict=True)
     ]
-    limits = np.array([one.limit for one in found])
-    return np.where(np.isfinite(limits), limits, grids[0]), np.array([one.band for one in found])
+    limits = np.array([one.limit for one in estimates])
+    return np.where(np.isfinite(limits), limits, grids[0]), np.array([one.band for one in estimates])
 
 
 def relative(difference: np.ndarray, truth: np.ndarray) -> float:
-    """Mean of |difference| over the mean of |truth|."""
+    """Return the mean of |difference| over the mean of |truth|."""
     return float(np.mean(np.abs(difference)) / np.mean(np.abs(truth)))
 
 
 def judge(rows: list[dict]) -> None:
-    """Nothing; rows of one problem and quantity get what follows from comparing them."""
+    """Give the rows of one problem and quantity what follows from comparing them."""
     for family in _families(rows):
         known = [row for row in family if np.isfinite(row["error"])]
         known.sort(key=lambda row: -row["cells"])
@@ -170,30 +187,30 @@ def judge(rows: list[dict]) -> None:
 
 
 def _families(rows: list[dict]) -> Iterator[list[dict]]:
-    """Rows that differ in their cells alone."""
-    found = {}
+    """Give groups of rows that differ in their cells alone."""
+    families = {}
     for row in rows:
-        found.setdefault(tuple(row[key] for key in METHOD), []).append(row)
-    return iter(found.values())
+        families.setdefault(tuple(row[key] for key in METHOD), []).append(row)
+    return iter(families.values())
 
 
-def reached(runs: pd.DataFrame) -> pd.DataFrame:
-    """Rows of the paper's method whose error counts as it is, because no finer grid has a larger one, by cells."""
+def reached(runs: "pd.DataFrame") -> "pd.DataFrame":
+    """Return the rows of the paper's method whose error counts, because no finer grid has a larger one, by cells."""
     paper = runs[runs["method"] == "paper"]
     return paper[paper["sure_error"] <= paper["error"] * (1 + 1e-6)].sort_values([*PLACE, "cells"])
 
 
 def pareto(rows: list[dict]) -> list[dict]:
-    """Rows than which none is both as cheap and as accurate, from the cheapest to the most accurate."""
-    found = []
+    """Return the rows than which none is both as cheap and as accurate, from the cheapest to the most accurate."""
+    front = []
     known = [row for row in rows if np.isfinite(row["sure_error"])]
     for row in sorted(known, key=lambda row: (row["seconds"], row["sure_error"])):
-        if row["sure_error"] < (found[-1]["sure_error"] if found else np.inf):
-            found.append(row)
-    return found
+        if row["sure_error"] < (front[-1]["sure_error"] if front else np.inf):
+            front.append(row)
+    return front
 
 
 def cheapest(rows: list[dict], error: float) -> dict | None:
-    """Row with the fewest seconds among those whose sure error is no larger; None if there is none."""
+    """Return the row with the fewest seconds among those whose sure error is no larger; None if there is none."""
     enough = [row for row in rows if row["sure_error"] <= error]
     return min(enough, key=lambda row: row["seconds"], default=None)

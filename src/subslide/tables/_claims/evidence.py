@@ -6,10 +6,10 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from subslide.fields import FRONT_THRESHOLDS
+from subslide.fields import FRONT_LABELS
 from subslide.points import RUN_KEYS, paper_times
 
-THRESHOLDS = tuple(f"{100 * fraction:g}pc" for fraction in FRONT_THRESHOLDS)
+THRESHOLDS = tuple(FRONT_LABELS)
 FRONT = f"x_front_{THRESHOLDS[0]}"
 WAVES = {"max_abs_eta": "whole box", "max_abs_eta_outside": "beyond R"}
 ARRIVED = 0.99
@@ -30,17 +30,17 @@ class Field(NamedTuple):
     band: pd.DataFrame
 
     def at(self, a_H: float, r: float) -> tuple[float, float]:
-        """Value and band of one run."""
+        """Return value and band of one run."""
         return float(self.value.loc[a_H, r]), float(self.band.loc[a_H, r])
 
     def ends(self) -> "Field | None":
-        """Only a_H = 1 and 10; None where the study lacks one."""
+        """Return a_H = 1 and 10 alone; None where the study lacks one."""
         if not {SHALLOW, DEEP} <= set(self.value.index):
             return None
         return Field(self.value.loc[[SHALLOW, DEEP]], self.band.loc[[SHALLOW, DEEP]])
 
     def submerged(self) -> "Field":
-        """Only r > 0: at r = 0 the water cannot act on the grains."""
+        """Return r > 0 alone: at r = 0 the water cannot act on the grains."""
         keep = [r for r in self.value.columns if r > 0]
         return Field(self.value[keep], self.band[keep])
 
@@ -60,10 +60,10 @@ class Evidence:
         self.a_2 = float(runs["a_2"].iloc[0]) if len(runs) else np.nan
         self.height = self.a_2 * self.radius
         self.times = paper_times(self.radius)
-        ids, found, series = self.runs["id"], results.bands, results.series
-        self.banded = bool(found["id"].isin(ids).any())
-        found = found[found["id"].isin(ids)]
-        self._bands = dict(iter(found.groupby("quantity")))
+        ids, bands, series = self.runs["id"], results.bands, results.series
+        bands = bands[bands["id"].isin(ids)]
+        self.banded = not bands.empty
+        self._bands = dict(iter(bands.groupby("quantity")))
         wanted = series["id"].isin(ids) & series["quantity"].isin([FRONT, *WAVES])
         self._series = {
             key: (rows["time"].to_numpy(), rows["value"].to_numpy())
@@ -72,14 +72,14 @@ class Evidence:
 
     @functools.cache  # noqa: B019 - an Evidence lives as long as its table
     def length(self, threshold: str = THRESHOLDS[0]) -> Field:
-        """Final length L_f (m); empty where grains still moved at the end of the run."""
+        """Return the final length L_f (m); empty where grains still moved at the end of the run."""
         name = f"L_f_{threshold}"
         values = self.runs.set_index("id")[name].where(self.runs.set_index("id")["status"] == "ok")
         return self._field(values, self._band_of(name))
 
     @functools.cache  # noqa: B019
     def at_time(self, quantity: str, time: float) -> Field:
-        """A quantity of the series at a time (s)."""
+        """Return a quantity of the series at a time (s)."""
         values = {
             name: np.interp(time * (1 - 1e-9), *self._series[quantity, name], right=np.nan)
             for name in self.runs["id"]
@@ -89,19 +89,19 @@ class Evidence:
 
     @functools.cache  # noqa: B019
     def wave(self, quantity: str) -> Field:
-        """Largest max|eta| (m) among the paper's times, with the band of that one.
+        """Return the largest max|eta| (m) among the paper's times, with the band of that one.
 
         The maximum over all time is no measure: at release the water beside the column leaps at once, and waves that
         meet on the axis have no limit that a grid would reach.
         """
-        found = [self.at_time(quantity, time) for time in self.times]
-        values, bands = (np.array([field[n].to_numpy(float) for field in found]) for n in (0, 1))
+        fields = [self.at_time(quantity, time) for time in self.times]
+        values, bands = (np.array([field[n].to_numpy(float) for field in fields]) for n in (0, 1))
         place = np.where(np.isnan(values), -np.inf, values).argmax(axis=0)[None]
         like = {"index": self.depths, "columns": self.ratios}
         return Field(*(pd.DataFrame(np.take_along_axis(x, place, 0)[0], **like) for x in (values, bands)))
 
     def arrival(self) -> Field:
-        """Time (s) at which the front comes within 1 % of its final length; what L_f's band moves it is its band."""
+        """Return the time (s) at which the front comes within 1 % of its final length, and what L_f's band moves it."""
         length = self.length()
         values, bands = {}, {}
         for _, run in self.runs.iterrows():
@@ -118,7 +118,7 @@ class Evidence:
         return self._field(pd.Series(values, dtype=float), pd.Series(bands, dtype=float))
 
     def _band_of(self, quantity: str, time: float | None = None) -> pd.Series:
-        """Band of a quantity by id of the run: 0 in a study without bands, NaN where there is none."""
+        """Return the band of a quantity by id of the run: 0 in a study without bands, NaN where there is none."""
         ids = self.runs["id"]
         if not self.banded:
             return pd.Series(0.0, ids)
@@ -130,7 +130,7 @@ class Evidence:
         return rows.set_index("id")["band"].astype(float).reindex(ids)
 
     def _field(self, values: pd.Series, bands: pd.Series) -> Field:
-        """Values and bands by id of the run, over a_H and r."""
+        """Return values and bands by id of the run, over a_H and r."""
         keys = self.runs.set_index("id")[["a_H", "r"]]
         table = keys.assign(value=values.reindex(keys.index), band=bands.reindex(keys.index))
         shape = {"index": self.depths, "columns": self.ratios}
@@ -139,7 +139,7 @@ class Evidence:
 
 
 def _first(time: np.ndarray, rising: np.ndarray, level: float) -> float:
-    """Time at which a rising series first reaches a level, between samples; NaN if the level is none.
+    """Return the time at which a rising series first reaches a level, between samples; NaN if the level is none.
 
     A level above all of the series is reached, as far as is known, at the time of its greatest value.
     """

@@ -27,27 +27,27 @@ FRONT = f"{THRESHOLDS[0][:-2]} % front"
 
 
 def length_falls_with_r(evidence: Evidence) -> Finding | None:
-    """Whether L_f falls with r."""
+    """Judge whether L_f falls with r."""
     length = evidence.length()
     others = _elsewhere(evidence, lambda field: finding(falls(field, "r"), ""))
     return finding(falls(length, "r"), f"{over_r(length, evidence.radius, 4)}; {others}")
 
 
 def length_falls_with_depth(evidence: Evidence) -> Finding | None:
-    """Whether L_f falls with a_H; the numbers have r = 0 too, where the exact model knows no difference."""
+    """Judge whether L_f falls with a_H; the numbers have r = 0 too, where the exact model knows no difference."""
     length = evidence.length()
     others = _elsewhere(evidence, lambda field: finding(falls(field.submerged(), "a_H"), ""))
     return finding(falls(length.submerged(), "a_H"), f"{over_depth(length, evidence.radius, 4)}; {others}")
 
 
 def length_smaller_when_shallow(evidence: Evidence) -> Finding | None:
-    """Whether L_f is smaller at a_H = 1 than at 10."""
+    """Judge whether L_f is smaller at a_H = 1 than at 10."""
     ends = evidence.length().submerged().ends()
     return ends and finding(rises(ends, "a_H"), over_depth(ends, evidence.radius, 4))
 
 
 def greatest_loss_is_light_and_deep(evidence: Evidence) -> Finding | None:
-    """Whether L_f differs most from r = 0 at r = 0.8, a_H = 10."""
+    """Judge whether L_f differs most from r = 0 at r = 0.8, a_H = 10."""
     length = evidence.length()
     if not {0.0, LIGHT} <= set(evidence.ratios) or DEEP not in evidence.depths or len(evidence.depths) < 2:
         return None
@@ -64,7 +64,7 @@ def greatest_loss_is_light_and_deep(evidence: Evidence) -> Finding | None:
 
 
 def agrees_with_laboratory(evidence: Evidence) -> Finding | None:
-    """Whether the runout at r = 0 is the laboratory's."""
+    """Judge whether the runout at r = 0 is the laboratory's."""
     if 0.0 not in evidence.ratios:
         return None
     unit = evidence.radius * laboratory.runout(evidence.a_2)
@@ -83,45 +83,45 @@ def agrees_with_laboratory(evidence: Evidence) -> Finding | None:
 
 
 def arrives_sooner(evidence: Evidence) -> Finding | None:
-    """Whether the front arrives later for bigger r."""
+    """Judge whether the front arrives later for bigger r."""
     arrival = evidence.arrival()
     return finding(rises(arrival, "r"), over_r(arrival, 1e-3))
 
 
 def spreads_faster(evidence: Evidence) -> Finding | None:
-    """Whether the front is behind, early on, for bigger r."""
+    """Judge whether the front is behind, early on, for bigger r."""
     front = evidence.at_time(f"x_front_{THRESHOLDS[0]}", evidence.times[0])
     return finding(falls(front, "r"), over_r(front, evidence.radius, 4))
 
 
 def front_more_sensitive_when_shallow(evidence: Evidence) -> Finding | None:
-    """Whether r spreads the front more at a_H = 1 than at 10."""
+    """Judge whether r spreads the front more at a_H = 1 than at 10."""
     if len(evidence.ratios) < 2 or not {SHALLOW, DEEP} <= set(evidence.depths):
         return None
     name = f"x_front_{THRESHOLDS[0]}"
     fields = {f"{1e3 * time:.3g} ms": evidence.at_time(name, time) for time in evidence.times[:-1]}
     low, high = evidence.ratios[0], evidence.ratios[-1]
-    found, words = [], []
+    contrasts, words = [], []
     for when, field in {**fields, "L_f": evidence.length()}.items():
         spread = []
         for a in (SHALLOW, DEEP):
             (near, width), (far, other) = field.at(a, low), field.at(a, high)
             spread.append((near - far, width + other))
-        found.append(Comparison(spread[0][0] - spread[1][0], spread[0][1] + spread[1][1], when))
+        contrasts.append(Comparison(spread[0][0] - spread[1][0], spread[0][1] + spread[1][1], when))
         words.append(f"{' / '.join(number(*one, evidence.radius) for one in spread)} ({when})")
-    return finding(found, f"a_H = {SHALLOW:g} / {DEEP:g}: {', '.join(words)}")
+    return finding(contrasts, f"a_H = {SHALLOW:g} / {DEEP:g}: {', '.join(words)}")
 
 
 def length_complex_between(evidence: Evidence) -> Finding | None:
-    """Whether L_f at some a_H between lies outside those at the ends."""
+    """Judge whether L_f at some a_H between lies outside those at the ends."""
     length = evidence.length().submerged()
     return finding(outside(length), over_depth(length, evidence.radius, 4), some=True)
 
 
 def _elsewhere(evidence: Evidence, judge: Callable[[Field], Finding | None]) -> str:
-    """Verdicts of `judge` on L_f at the fronts that the claim itself does not take."""
-    found = {threshold: judge(evidence.length(threshold)) for threshold in THRESHOLDS[1:]}
-    words = (f"{t[:-2]} % front {made.verdict()}" for t, made in found.items() if made)
+    """Return the verdicts of `judge` on L_f at the fronts that the claim itself does not take."""
+    others = {threshold: judge(evidence.length(threshold)) for threshold in THRESHOLDS[1:]}
+    words = (f"{t[:-2]} % front {made.verdict()}" for t, made in others.items() if made)
     return f"({', '.join(words)})"
 
 

@@ -20,36 +20,36 @@ ALMOST_NONE = 0.01
 
 
 def waves_fall(quantity: str, along: str, evidence: Evidence) -> Finding | None:
-    """Whether max|eta| at each of the paper's times falls with r or a_H; the numbers are the largest among them."""
+    """Judge whether max|eta| at each of the paper's times falls with r or a_H; the numbers are the largest of them."""
     words = over_r if along == "r" else over_depth
-    found = [
+    comparisons = [
         one
         for time in evidence.times
         for one in falls(evidence.at_time(quantity, time).submerged(), along, f"{1e3 * time:.3g} ms, ")
     ]
-    return finding(found, f"largest {words(evidence.wave(quantity).submerged(), 1e-3)}")
+    return finding(comparisons, f"largest {words(evidence.wave(quantity).submerged(), 1e-3)}")
 
 
 def amplitude_falls_with_r(quantity: str, evidence: Evidence) -> Finding | None:
-    """Whether the wave is smaller for bigger r."""
+    """Judge whether the wave is smaller for bigger r."""
     wave = evidence.wave(quantity).submerged()
     return finding(falls(wave, "r"), over_r(wave, 1e-3))
 
 
 def amplitude_bigger_when_shallow(quantity: str, evidence: Evidence) -> Finding | None:
-    """Whether the wave is bigger at a_H = 1 than at 10."""
+    """Judge whether the wave is bigger at a_H = 1 than at 10."""
     ends = evidence.wave(quantity).submerged().ends()
     return ends and finding(falls(ends, "a_H"), over_depth(ends, 1e-3))
 
 
 def amplitude_complex_between(quantity: str, evidence: Evidence) -> Finding | None:
-    """Whether the wave at some a_H between lies outside those at the ends."""
+    """Judge whether the wave at some a_H between lies outside those at the ends."""
     wave = evidence.wave(quantity).submerged()
     return finding(outside(wave), over_depth(wave, 1e-3), some=True)
 
 
 def almost_no_wave_when_deep(quantity: str, evidence: Evidence) -> Finding | None:
-    """Whether max|eta| at a_H = 10 is almost none; the numbers say how many times bigger it is at a_H = 1."""
+    """Judge whether max|eta| at a_H = 10 is almost none; the numbers say how many times bigger it is at a_H = 1."""
     if DEEP not in evidence.depths:
         return None
     wave = evidence.wave(quantity).submerged()
@@ -65,7 +65,7 @@ def almost_no_wave_when_deep(quantity: str, evidence: Evidence) -> Finding | Non
 
 
 def _about_waves() -> list[Claim]:
-    """Each claim on the surface, over each region."""
+    """Return each claim on the surface, over each region."""
     claims = []
     for quantity, where in WAVES.items():
         each, top = f"max|eta| ({where})", f"largest max|eta| ({where}) among the paper's times"

@@ -7,17 +7,17 @@ from typing import NamedTuple
 import numpy as np
 
 from subslide.tables._claims.evidence import Evidence, Field
-
-SUPPORTED, REFUTED, OPEN = "supported", "not supported", "not decided"
-
+from subslide.tables._claims.words import OPEN, REFUTED, SUPPORTED
 
 MOST_NAMED = 3
 """Failing comparisons that are named, the clearest first."""
 
 
 class Comparison(NamedTuple):
-    """By how much a comparison holds (negative where it fails), the half-width of that margin's band (NaN where a
-    value has none), and where it was made, in words."""
+    """By how much a comparison holds (negative where it fails), the half-width of its band, and where it was made.
+
+    The band is NaN where a value has none.
+    """
 
     margin: float
     band: float
@@ -32,7 +32,7 @@ class Finding(NamedTuple):
     some: bool = False
 
     def verdict(self, banded: bool = True) -> str:
-        """Verdict on what holds or fails by more than its band; with `banded` false, on the numbers as computed."""
+        """Return the verdict on what holds or fails by more than its band; not `banded`, on the numbers as computed."""
         margins, bands = self._arrays(banded)
         holds = margins > bands
         fails = (margins < -bands) | ((margins == 0) & (bands == 0))
@@ -42,7 +42,7 @@ class Finding(NamedTuple):
         return SUPPORTED if enough else OPEN
 
     def stated(self) -> str:
-        """The numbers, how many comparisons hold and how many are decided, and where the claim fails."""
+        """Return the numbers, how many comparisons hold and how many are decided, and where the claim fails."""
         (margins, bands), total = self._arrays(True), len(self.comparisons)
         sure, wrong, unknown = (int(n.sum()) for n in (margins > bands, margins < -bands, np.isnan(bands)))
         words = [self.numbers, f"holds in {int((margins > 0).sum())} of {total}"]
@@ -58,6 +58,7 @@ class Finding(NamedTuple):
         return "; ".join(words)
 
     def _arrays(self, banded: bool) -> tuple[np.ndarray, np.ndarray]:
+        """Return margins and bands as arrays; bands are 0 with `banded` false."""
         margins = np.array([one.margin for one in self.comparisons], float)
         bands = np.array([one.band for one in self.comparisons], float)
         return margins, bands if banded else np.zeros_like(bands)
@@ -76,13 +77,13 @@ class Claim(NamedTuple):
 
 
 def finding(comparisons: Iterable[Comparison], numbers: str, some: bool = False) -> Finding | None:
-    """`Finding` of some comparisons; None if there are none."""
+    """Return the `Finding` of some comparisons; None if there are none."""
     comparisons = tuple(comparisons)
     return Finding(numbers, comparisons, some) if comparisons else None
 
 
 def falls(field: Field, along: str, when: str = "") -> list[Comparison]:
-    """Comparisons of 'falls' from each value of `along` ('r' or 'a_H') to the next. when: words put before where."""
+    """Return comparisons of 'falls' from each value of `along` ('r' or 'a_H') to the next; `when` leads the words."""
     tables = field if along == "r" else Field(*(table.T for table in field))
     other = "a_H" if along == "r" else "r"
     steps = tables.value.columns
@@ -98,24 +99,24 @@ def falls(field: Field, along: str, when: str = "") -> list[Comparison]:
 
 
 def rises(field: Field, along: str) -> list[Comparison]:
-    """Comparisons of 'rises' from each value of `along` to the next."""
+    """Return the comparisons of 'rises' from each value of `along` to the next."""
     return [one._replace(margin=-one.margin) for one in falls(field, along)]
 
 
 def outside(field: Field) -> list[Comparison]:
-    """Comparisons of 'lies outside the values at the least and greatest a_H', for each a_H between and each r."""
-    found = []
+    """Return comparisons of 'lies outside the values at the least and greatest a_H', at each a_H between and r."""
+    comparisons = []
     for r in field.value.columns:
         (low, low_band), (high, high_band) = sorted(field.at(field.value.index[k], r) for k in (0, -1))
         for value, band in (field.at(a, r) for a in field.value.index[1:-1]):
-            found.append(
+            comparisons.append(
                 max(Comparison(value - high, band + high_band), Comparison(low - value, band + low_band))
             )
-    return found
+    return comparisons
 
 
 def number(value: float, band: float, unit: float, digits: int = 3) -> str:
-    """A value and its band in units of `unit`: '2.13±0.006'; '±?' where there is no band."""
+    """Return a value and its band in units of `unit`: '2.13±0.006'; '±?' where there is no band."""
     text = f"{value / unit:#.{digits}g}".rstrip(".")
     if np.isnan(band):
         return f"{text}±?"
@@ -124,7 +125,7 @@ def number(value: float, band: float, unit: float, digits: int = 3) -> str:
 
 
 def over_r(field: Field, unit: float, digits: int = 3) -> str:
-    """For each a_H, the values at the least and at the greatest r."""
+    """Return, for each a_H, the values at the least and at the greatest r."""
     if field.value.columns.empty:
         return ""
     first, last = field.value.columns[[0, -1]]
@@ -136,7 +137,7 @@ def over_r(field: Field, unit: float, digits: int = 3) -> str:
 
 
 def over_depth(field: Field, unit: float, digits: int = 3) -> str:
-    """For each r, the values at each a_H."""
+    """Return, for each r, the values at each a_H."""
     words = (
         " / ".join(number(*field.at(a, r), unit, digits) for a in field.value.index) + f" (r = {r:g})"
         for r in field.value.columns

@@ -1,0 +1,126 @@
+"""What the package can be given by adding a file: scenes, exact solutions, tables and figures, listed by their folders.
+
+Nothing is imported to list it, and constants that are literals are read from the source, so that planning a study does
+not wait for plotting libraries. A file whose name begins with '_' is a helper and is not listed.
+"""
+
+import ast
+import functools
+from pathlib import Path
+from typing import Any, NamedTuple
+
+PACKAGE = Path(__file__).resolve().parent
+
+
+class Figure(NamedTuple):
+    """What a figure says of itself: title, heading in the report, and the values its study must have by key."""
+
+    title: str
+    category: str
+    needs: dict[str, tuple]
+
+
+class Table(NamedTuple):
+    """What a table says of itself: title, heading in the report, what it is made from, compiled kernels it needs."""
+
+    title: str
+    category: str
+    reads: tuple[str, ...]
+    kernels: tuple[str, ...]
+
+
+@functools.cache
+def names(room: str) -> tuple[str, ...]:
+    """Return the names of the plug-ins in a room.
+
+    Parameters
+    ----------
+    room
+        Folder of the package: `scenes`, `exact`, `tables` or `figures`.
+
+    Returns
+    -------
+    tuple of str
+        Names of the files without '.py', sorted.
+    """
+    return tuple(sorted(path.stem for path in (PACKAGE / room).glob("[a-z]*.py")))
+
+
+@functools.cache
+def figure(name: str) -> Figure:
+    """Return what a figure says of itself."""
+    said = literals("figures", name)
+    return Figure(said.get("TITLE", name), said.get("CATEGORY", "Figures"), said.get("NEEDS", {}))
+
+
+@functools.cache
+def table(name: str) -> Table:
+    """Return what a table says of itself."""
+    said = literals("tables", name)
+    return Table(said["TITLE"], said.get("CATEGORY", "5 Tables"), said["READS"], said.get("KERNELS", ()))
+
+
+def literals(room: str, name: str) -> dict[str, Any]:
+    """Return the constants of a plug-in, by name, whose values are literals in its source."""
+    found = {}
+    for statement in _tree(PACKAGE / room / f"{name}.py").body:
+        if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Name):
+            try:
+                found[statement.targets[0].id] = ast.literal_eval(statement.value)
+            except ValueError:
+                continue
+    return found
+
+
+def columns(name: str) -> list[str]:
+    """Return the columns of a table whose names its module states as they are."""
+    for statement in _tree(PACKAGE / "tables" / f"{name}.py").body:
+        if isinstance(statement, ast.Assign) and getattr(statement.targets[0], "id", "") == "COLUMNS":
+            return [key.value for key in statement.value.keys if isinstance(key, ast.Constant)]
+    raise ValueError(f"the table {name} has no COLUMNS")
+
+
+@functools.cache
+def imported(room: str, name: str) -> frozenset[str]:
+    """Return the modules of a room that a plug-in is made of: its own, and all that it imports from the room.
+
+    Parameters
+    ----------
+    room, name
+        Folder of the package, and name of a file in it.
+
+    Returns
+    -------
+    frozenset of str
+        Paths without '.py' from the folder, such as `claims`, `_claims/grains`.
+    """
+    known, new = set(), {name}
+    while new:
+        known |= new
+        new = {other for one in new for other in _imports(room, one)} - known
+    return frozenset(known)
+
+
+def _imports(room: str, name: str) -> set[str]:
+    """Return the modules of a room that one of its modules imports itself, wherever it does so."""
+    found = set()
+    for node in ast.walk(_tree(_module(room, name))):
+        if isinstance(node, ast.ImportFrom) and f"{node.module}.".startswith(f"subslide.{room}."):
+            base = node.module.split(".")[2:]
+            for parts in (base, *([*base, alias.name] for alias in node.names)):
+                path = "/".join(parts)
+                if parts and _module(room, path).is_file():
+                    found.add(path)
+    return found
+
+
+def _module(room: str, name: str) -> Path:
+    """Return the path of a module, or of the first file of a package, by its path from a room."""
+    path = PACKAGE / room / name
+    return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+
+
+@functools.cache
+def _tree(path: Path) -> ast.Module:
+    """Return the syntax tree of a source file."""
+    return ast.parse(path.read_text(encoding="utf-8"))

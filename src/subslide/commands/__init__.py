@@ -1,0 +1,32 @@
+"""The verbs of the command line: `solving`, `tabulating` and `showing` add theirs to the group `cli`.
+
+Start-up is most of a radial run's time, so what a verb needs is imported when it is called.
+"""
+
+import click
+
+import subslide
+from subslide.keys import schema
+
+
+class Verbs(click.Group):
+    """Group of commands that lists them in the order they were written, and names the nearest to a mistyped one."""
+
+    def list_commands(self, ctx):
+        """Return the names of the commands."""
+        return list(self.commands)
+
+    def resolve_command(self, ctx, args):
+        """Return the command that is called; UsageError, with what is allowed, if there is none."""
+        if args and args[0] not in self.commands:
+            hint = schema.closest(args[0], self.commands)
+            raise click.UsageError(
+                f"{args[0]}: there is no such command; allowed: {', '.join(self.commands)}{hint}"
+            )
+        return super().resolve_command(ctx, args)
+
+
+@click.group(cls=Verbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+@click.version_option(subslide.__version__, prog_name="subslide")
+def cli():
+    """Collapse of submerged granular columns: two-layer Coulomb runs, records, tables and figures."""

@@ -1,0 +1,35 @@
+"""Verbs that draw figures and write the pages of documentation that follow from the code."""
+
+from pathlib import Path
+
+import click
+
+from subslide.commands import cli
+from subslide.keys.schema import ConfigError
+
+
+@cli.command()
+@click.argument("name")
+@click.option(
+    "--results", required=True, metavar="FOLDER", help="folder of a study with its tables and records"
+)
+@click.option("-o", "--output", required=True, metavar="FOLDER", help="folder for NAME.png and NAME.svg")
+def figure(name, results, output):
+    """Draw one figure, NAME, of a study as PNG and SVG."""
+    from subslide.figures import _save
+
+    for path in _save.save(name, Path(results), Path(output)):
+        click.echo(str(path))
+
+
+@cli.command()
+def docs():
+    """Write the pages of documentation that follow from the code, in the repository that is the current folder."""
+    from subslide import pages
+    from subslide.files import write_text
+
+    for path, text in pages.generated().items():
+        if not Path(path).parent.is_dir():
+            raise ConfigError(f"{path}: there is no such folder here; allowed: the root of the repository")
+        write_text(path, text)
+        click.echo(path)

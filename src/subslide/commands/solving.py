@@ -1,0 +1,107 @@
+"""Verbs that check and solve: `run` for one collapse, and what the workflow's rules call."""
+
+import gc
+
+import click
+
+from subslide.commands import cli
+from subslide.keys import schema
+from subslide.points import RUN_KEYS
+
+
+def run_options(command):
+    """Return the command with one option for each key of a run; help texts come from the schema."""
+    for key in reversed(("numerics", *RUN_KEYS)):
+        about = schema.properties()[key]
+        flag = "--" + key.replace("_", "-")
+        default = about["default"]
+        if about.get("type") == "boolean":
+            option = click.option(f"{flag}/--no-{flag[2:]}", key, default=None, help=_help(key))
+        else:
+            metavar = schema.metavar(key)
+            option = click.option(flag, key, metavar=metavar, help=f"{_help(key)}  [default: {default}]")
+        command = option(command)
+    return command
+
+
+def _help(key: str) -> str:
+    """Return what help says of a key: its meaning, unit and range."""
+    about = schema.properties()[key]
+    unit = f" [{schema.unit(key)}]" if schema.unit(key) else ""
+    choice = "" if "enum" in about or about.get("type") == "boolean" else f"; {schema.allowed(key)}"
+    return f"{about['description']}{unit}{choice}"
+
+
+@cli.command()
+@click.option(
+    "--config", metavar="FILE", help="YAML file of one point, with the keys of a study; options override it"
+)
+@run_options
+@click.option(
+    "--threads", type=click.IntRange(1, 1024), default=1, show_default=True, help="threads of the kernels"
+)
+@click.option("-o", "--output", required=True, metavar="FILE.nc", help="record to write (NetCDF-4)")
+def run(config, threads, output, **options):
+    """Solve one collapse, print one line and write its record.
+
+    Exit status: 0 when a record was written, whatever its status; 2 for bad input; 1 for a fault.
+    """
+    from subslide import jobs
+
+    gc.disable()  # a seventh of the start-up time went into looking for cycles among imported modules
+    options = {key: value for key, value in options.items() if value is not None}
+    point = jobs.point_of(config, options)
+    jobs.check_output(output, inputs=[config] if config else [])
+    caution([point])
+    jobs.set_threads(threads)
+    click.echo(jobs.run(point, threads, output))
+
+
+def caution(points) -> None:
+    """Say on stderr, once of each unsafe region, that some of the points lie in it."""
+    from subslide.study import cautions
+
+    for line in cautions.cautions(points):
+        click.echo(f"subslide: {line}", err=True)
+
+
+@cli.command()
+@click.argument("config", nargs=-1, required=True)
+def check(config):
+    """Check study files, CONFIG..., and print one line for each, with cautions where runs lie in unsafe regions."""
+    from subslide.study.config import read_study
+
+    for path in config:
+        study = read_study(path)
+        more = f" and {len(study.solved) - len(study.runs)} companions for bands" if study.bands else ""
+        click.echo(
+            f"{path}: study '{study.name}', {len(study.runs)} runs{more}, {len(study.figures)} figures"
+        )
+        caution(study.points)
+
+
+@cli.command()
+@click.argument("spec")
+@click.option(
+    "--threads", type=click.IntRange(1, 1024), default=1, show_default=True, help="threads of the kernels"
+)
+@click.option("-o", "--output", required=True, metavar="FILE.nc", help="record to write (NetCDF-4)")
+def batch(spec, threads, output):
+    """Solve the points of a batch file, SPEC, into one record with its SHA-256 beside it."""
+    from subslide import jobs
+
+    jobs.check_output(output, inputs=[spec])
+    jobs.set_threads(threads)
+    for line in jobs.batch(spec, threads, output):
+        click.echo(line)
+
+
+@cli.command()
+@click.argument("kernel", nargs=-1, required=True, metavar="MODEL:DTYPE[:general]...")
+def warm(kernel):
+    """Compile the kernels of some models into the cache, so that jobs started together do not each compile."""
+    from subslide import jobs
+
+    jobs.set_threads(1)
+    for line in jobs.warm(kernel):
+        click.echo(line)

@@ -1,0 +1,155 @@
+"""Verbs that write the tables of a study: `table` for any of them, and a verb each for some."""
+
+from pathlib import Path
+
+import click
+
+from subslide.commands import cli
+from subslide.keys.schema import ConfigError
+
+MISSED = 1
+"""Exit status of `verify` where a required order is not reached."""
+
+results_argument = click.argument("results")
+page_option = click.option(
+    "-o", "--output", metavar="FILE.md", help="page whose table of the last run is written anew"
+)
+
+
+def write(name: str, folder: str) -> None:
+    """Write a table of the study in a folder, and print it in words, if it has any, and the paths of its files."""
+    from subslide import tables
+    from subslide.results import Results
+    from subslide.tables import _write
+
+    module, results = tables.load(name), Results(folder)
+    if hasattr(module, "KERNELS"):
+        from subslide import jobs
+
+        jobs.set_threads(1)
+    paths = _write.write(name, results)
+    if hasattr(module, "text"):
+        click.echo(f"{module.text(results)}\n")
+    for path in paths:
+        click.echo(str(path))
+
+
+def renew(path: str, page: str, folder: str) -> None:
+    """Write the table of a page of documentation anew, by the module of `subslide.pages` called `page`."""
+    import importlib
+
+    from subslide.files import write_text
+    from subslide.results import Results
+
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise ConfigError(f"--output: {path}: there is no such file; allowed: a page to renew") from None
+    write_text(path, importlib.import_module(f"subslide.pages.{page}").page(text, Results(folder)))
+
+
+@cli.command()
+@click.argument("name")
+@results_argument
+def table(name, results):
+    """Write one table, NAME, of a study from its records and tables; RESULTS is its folder, such as results/paper."""
+    write(name, results)
+
+
+@cli.command()
+@results_argument
+def tables(results):
+    """Write runs, timing and series of a study, and its bands if it has any; RESULTS is its folder."""
+    from subslide.results import Results
+    from subslide.tables import _write
+
+    study = Results(results)
+    if study.companions:
+        write("bands", results)
+    else:
+        _write.remove("bands", study.folder)
+    for name in ("runs", "timing", "series"):
+        write(name, results)
+
+
+@cli.command()
+@results_argument
+def errors(results):
+    """Write the table of errors against exact solutions of a study; RESULTS is the study's folder."""
+    write("errors", results)
+
+
+@cli.command()
+@results_argument
+@page_option
+def verify(results, output):
+    """Print errors and observed orders of a study with exact solutions, such as results/accuracy.
+
+    Exit status: 0 if every required order is reached and grains at rest are still; 1 if not; 2 for bad input.
+    """
+    from subslide.results import Results
+    from subslide.tables import _orders
+
+    rows = Results(results).errors
+    if rows.empty:
+        raise ConfigError(
+            f"{results}/tables/errors.csv has no rows: no run has a known answer; allowed: a study such as accuracy"
+        )
+    lines = _orders.lines(rows)
+    click.echo(_orders.text(lines))
+    if output:
+        renew(output, "verification", results)
+    missed = [line for line in lines if line.missed]
+    for line in missed:
+        click.echo(f"subslide: required, but {line.verdict}: {', '.join(line.words()[:4])}", err=True)
+    return MISSED if missed else 0
+
+
+@cli.command("work-precision")
+@results_argument
+@click.option(
+    "-o",
+    "--output",
+    metavar="FILE.md",
+    multiple=True,
+    help="page whose tables of the last run are written anew",
+)
+def work_precision(results, output):
+    """Chart error against seconds for a study that sweeps numerics; RESULTS is its folder, such as results/accuracy.
+
+    Writes RESULTS/tables/work_precision.csv and cheapest.csv, and prints the cheapest choices.
+    """
+    write("work_precision", results)
+    write("cheapest", results)
+    for path in output:
+        renew(path, "work_precision", results)
+
+
+@cli.command()
+@results_argument
+@page_option
+def atlas(results, output):
+    """Write the stability atlas of a study and print how each method did; RESULTS is the study's folder."""
+    write("atlas", results)
+    if output:
+        renew(output, "stability", results)
+
+
+@cli.command()
+@results_argument
+def cfl(results):
+    """Find the largest stable Courant number of each scheme, order and model, for a study's table of them.
+
+    RESULTS is the study's folder, such as results/stability.
+    """
+    write("cfl", results)
+
+
+@cli.command()
+@results_argument
+def claims(results):
+    """Hold what the source paper says against a study's tables; RESULTS is its folder, such as results/paper.
+
+    Writes RESULTS/tables/claims.csv and claims.html, and prints the same as text.
+    """
+    write("claims", results)

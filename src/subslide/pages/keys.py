@@ -1,0 +1,115 @@
+"""The page on studies, config/README.md: every key, named numerics, and every scene with its options."""
+
+from subslide import catalogue, scenes
+from subslide.keys import schema
+
+PATH = "config/README.md"
+INTRODUCTION = """# Studies
+
+<!-- written by `make docs` from src/subslide/keys/config.schema.json and src/subslide/scenes -->
+
+One YAML file is one study. Run it with
+
+    make study CONFIG=config/mine.yaml CORES=2
+
+or, in the virtual environment that `make setup` makes, `snakemake --configfile config/mine.yaml --cores 2`.
+Results go to `results/<study>/`. Without a file Snakemake runs `config/paper.yaml`; files are never merged.
+
+Keys are flat. A key that is marked as an axis takes one value or a list; the runs are the product of all lists, and a
+point that comes up twice runs once. `subslide check config/mine.yaml` tells what a file holds, or what is wrong.
+
+```yaml
+study: mine
+a_H: [1, 2, 4]
+r: [0, 0.4]
+delta: [25, 30, 35]
+model: radial
+```
+
+A study that is no single product is a list of `cases`, each the product of its own lists; the keys beside `cases` are
+the defaults of all, and a case's own key wins. Messages count the cases from 0.
+
+```yaml
+study: joined
+model: radial
+delta: 25
+cases:
+  - {a_H: [1, 2, 4], r: 0.4}
+  - {a_H: 1, r: [0, 0.2, 0.6], delta: [25, 35]}
+```
+
+`bands: true` solves each run on two coarser grids as well, and estimates from the three what the finest leaves
+uncertain; see `bands.csv` in docs/tables.md. Adding or removing it computes the coarser runs alone, or nothing.
+
+Changing the lists computes only what is new: each point has a name that depends on its values alone (`1` and `1.0`
+are the same), a ledger in `results/<study>/batches/` remembers which record holds it, and points that are no longer
+asked for stay there unused. A change of the package's code computes everything again.
+
+## Keys
+
+"""
+
+SCENES = """
+## Scenes
+
+`scene` names the initial state, and `scene_options` its options, each an axis if it has a list:
+
+```yaml
+scene: ellipse
+scene_options:
+  elongation: [1, 1.5, 2]
+  angle: 30
+```
+
+On the command line: `--scene ellipse --scene-options elongation=2,angle=30`. Lengths are in units of R, depths of H2,
+and speeds of sqrt(g H2). With `model: auto` a scene is solved in the cheapest geometry that gives its answer, and a
+model that cannot give it is refused; a record and the line of `subslide run` say which one was chosen and why.
+
+"""
+
+
+def text() -> str:
+    """Return the page."""
+    sections = "\n".join(scene(name) for name in catalogue.names("scenes"))
+    return INTRODUCTION + keys() + presets() + SCENES + sections
+
+
+def keys() -> str:
+    """Return the table (Markdown) of all keys of a study."""
+    rows = ["| key | meaning | unit | default | allowed | axis |", "|---|---|---|---|---|---|"]
+    for key, about in schema.properties().items():
+        default = schema.show(about["default"]) if "default" in about else "needed"
+        axis = "yes" if schema.is_axis(key) else ""
+        entries = (f"`{key}`", about["description"], schema.unit(key), default, schema.allowed(key), axis)
+        rows.append("| " + " | ".join(entries) + " |")
+    return "\n".join(rows) + "\n"
+
+
+def presets() -> str:
+    """Return the list (Markdown) of what each value of `numerics` sets."""
+    lines = ["", "## Named numerics", ""]
+    for name, values in schema.properties()["numerics"]["presets"].items():
+        text = (
+            ", ".join(f"`{key}: {value}`" for key, value in values.items()) or "nothing: the defaults above"
+        )
+        lines.append(f"- `{name}` sets {text}")
+    return "\n".join(lines) + "\n"
+
+
+def scene(name: str) -> str:
+    """Return the section (Markdown) on a scene and its options."""
+    module = scenes.load(name)
+    lines = [f"### {name}", "", module.__doc__.strip().replace("\n", " ").replace("  ", "\n\n"), ""]
+    if module.OPTIONS:
+        lines += ["| option | meaning | unit | default | allowed |", "|---|---|---|---|---|"]
+    for option, about in module.OPTIONS.items():
+        default = schema.show(about["default"]) if "default" in about else "needed"
+        entries = (
+            f"`{option}`",
+            about["description"],
+            schema.unit_of(about),
+            default,
+            schema.range_of(about),
+        )
+        lines.append("| " + " | ".join(entries) + " |")
+    return "\n".join(lines) + ("\n" if module.OPTIONS else "")

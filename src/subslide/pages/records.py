@@ -1,0 +1,49 @@
+"""The page on records, docs/records.md: statuses, and every variable with its dimensions and unit."""
+
+from subslide import fields
+
+PATH = "docs/records.md"
+INTRODUCTION = """# Records
+
+<!-- written by `make docs` from src/subslide/fields.py -->
+
+`subslide run` writes one run, a study one file for each batch of runs, in one layout (NetCDF-4, CF-1.11): every
+variable of a run has the dimension `run`, of length 1 for a single run. Runs that are shorter, or lie in a smaller box,
+than others of their batch end in NaN. `results/<study>/points.json` says which batch holds which `id`:
+
+```python
+from subslide.results import Results
+
+Results("results/paper").record("p0123456789ab")  # one run by its id, as an xarray dataset without padding
+```
+
+Lengths are in m from the axis of the scene, times in s from its release. Front and deposit are measured along the x
+axis. In scenes on a line volumes and energy are per metre of width. Each key of a study is a variable too
+([config/README.md](../config/README.md)); attributes hold the configuration, versions and a checksum that readers
+verify. `status` is one of:
+
+"""
+
+
+def text() -> str:
+    """Return the page."""
+    return INTRODUCTION + variables()
+
+
+def variables() -> str:
+    """Return tables (Markdown) of the statuses and the variables of a record."""
+    lines = [f"- `{name}`: {text}" for name, text in fields.STATUSES.items()]
+    parts = {
+        "Series, a sample each time step": fields.SERIES,
+        "Profiles along the x axis, at each snapshot": fields.PROFILES,
+        "Fields, at each snapshot (`fields: true`, in the plane)": fields.FIELDS_2D,
+        "A value a run": {**fields.PARAMETERS, **fields.SCALARS},
+        "Coordinates": fields.COORDINATES,
+    }
+    for title, table in parts.items():
+        lines += ["", f"## {title}", "", "| name | dimensions | unit | meaning |", "|---|---|---|---|"]
+        lines += [
+            f"| `{name}` | {', '.join(field.dims)} | {field.unit} | {field.long_name} |"
+            for name, field in table.items()
+        ]
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,103 @@
+"""From a table's module to its files: whole or not there, and the same bytes for the same results."""
+
+import csv
+import io
+from collections.abc import Callable, Iterable
+from numbers import Integral, Real
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from subslide import tables
+from subslide.files import replacing, write_text
+
+if TYPE_CHECKING:
+    from subslide.results import Results
+
+
+def write(name: str, results: "Results") -> list[Path]:
+    """Write a table of a study.
+
+    Parameters
+    ----------
+    name
+        One of the modules of `subslide.tables`.
+    results
+        The study; its folder gets the files.
+
+    Returns
+    -------
+    list of Path
+        The files, which replace those of the table from before, in whatever format.
+
+    Raises
+    ------
+    ConfigError
+        If there is no such table, or the study has none of it.
+    RecordError
+        If a record that the table is made from is damaged.
+    """
+    module = tables.load(name)
+    folder = results.folder / "tables"
+    paths = [folder / file for file in tables.files(name, len(results.runs_of_study))]
+    if hasattr(module, "write"):
+        folder.mkdir(exist_ok=True)
+        with replacing(paths[0]) as temporary:
+            module.write(temporary, results)
+    else:
+        rows = module.table(results)
+        rows = rows.to_dict("records") if hasattr(rows, "to_dict") else list(rows)
+        folder.mkdir(exist_ok=True)
+        write_text(paths[0], csv_text(module.COLUMNS, rows, getattr(module, "FLOAT_FORMAT", "")))
+        if len(paths) > 1:
+            write_text(paths[1], module.html(rows))
+    remove(name, results.folder, but=paths)
+    return paths
+
+
+def remove(name: str, folder: Path, but: Iterable[Path] = ()) -> None:
+    """Remove the files of a table from a study's folder, but for some of them."""
+    for path in (folder / "tables").glob(f"{name}.*"):
+        if path not in but:
+            path.unlink(missing_ok=True)
+
+
+def csv_text(columns: Iterable[str], rows: list[dict], float_format: str = "") -> str:
+    """Return a table as CSV.
+
+    Parameters
+    ----------
+    columns
+        Names of the columns.
+    rows
+        Entries by column; what is None, not a number or left out stays empty.
+    float_format
+        Format of numbers, such as '%.10g', in columns that hold nothing else and not only whole ones; '' for all
+        digits.
+
+    Returns
+    -------
+    str
+        Lines that end in a line feed, the names first.
+    """
+    number = float_format.__mod__ if float_format else repr
+    entries = [_column([row.get(name) for row in rows], number) for name in columns]
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows(zip(*entries, strict=True))
+    return text.getvalue()
+
+
+def _column(entries: list, number: Callable[[float], str]) -> list[str]:
+    """Return the entries of a column as text: a whole number is one only where all of its column are."""
+    known = [entry for entry in entries if not _missing(entry)]
+    if not all(isinstance(entry, Real) and not isinstance(entry, bool) for entry in known):
+        return ["" if _missing(entry) else str(entry) for entry in entries]
+    if len(known) == len(entries) and all(isinstance(entry, Integral) for entry in known):
+        return [str(int(entry)) for entry in entries]
+    return ["" if _missing(entry) else number(float(entry)) for entry in entries]
+
+
+def _missing(entry) -> bool:
+    """Return whether an entry is None or not a number."""
+    return entry is None or entry != entry
