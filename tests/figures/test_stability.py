@@ -8,19 +8,20 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from subslide import exact, figures
+from subslide import catalogue, exact
 from subslide.points import RUN_KEYS, options_text, to_dict
+from subslide.results import StudyRun
 from subslide.study.config import make_study, read_study, solved_model
 from subslide.tables import atlas
 
-NAMES = [name for name in figures.names() if name.startswith("stability_")]
+NAMES = [name for name in catalogue.names("figures") if name.startswith("stability_")]
 
 
 class MadeUp:
     """The stability study: methods err by their order, films fail, waves grow as theory has it."""
 
     def __init__(self, study):
-        self.points = [{"id": point.id, **to_dict(point)} for point in study.points]
+        self.runs_of_study = [StudyRun(point.id, label, point, "") for label, point in study.runs]
         self.all = {point.id: point for point in study.points}
         self.finest = {column(point): point.id for point in study.points if point.cells == 800}
         self.atlas = pd.DataFrame([self.row(point) for point in study.points])

@@ -7,8 +7,9 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from subslide import exact, figures
-from subslide.points import options_text, to_dict
+from subslide import catalogue, exact
+from subslide.points import options_text
+from subslide.results import StudyRun
 from subslide.study.config import make_study
 
 CASES = [
@@ -34,7 +35,7 @@ class MadeUp:
             }
         )
         models = {"standing_wave": "line", "dam_break": "one-layer", "paraboloid": "radial"}
-        self.points = [{"id": point.id, **to_dict(point)} for point in study.points]
+        self.runs_of_study = [StudyRun(point.id, label, point, "") for label, point in study.runs]
         self.all = {point.id: point for point in study.points}
         self.runs = pd.DataFrame({"id": point.id, "dx": point.dx} for point in study.points)
         self.errors = pd.DataFrame(
@@ -96,6 +97,6 @@ def test_profiles_of_two_grids_and_orders_lie_on_the_exact_one():
 
 @pytest.mark.parametrize("name", ["verify_orders", "verify_profiles"])
 def test_only_studies_with_these_scenes_have_the_figures(name):
-    assert figures.about(name).needs == {"scene": ("dam_break", "paraboloid", "standing_wave")}
+    assert catalogue.figure(name).needs == {"scene": ("dam_break", "paraboloid", "standing_wave")}
     assert name in make_study({"study": "t", "cases": CASES, "delta": 0}).figures
     assert name not in make_study({"study": "t"}).figures

@@ -1,6 +1,7 @@
 """The search for the largest stable Courant number: a wave meets the theoretical limit, each criterion has teeth."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from subslide.points import Point
@@ -13,7 +14,8 @@ COLUMN = courant.CASES[4]._replace(cells=40)
 @pytest.fixture(scope="module")
 def found():
     """Rows of the search for a wave on a line and a column on a radius."""
-    return courant.table((WAVE, COLUMN), ("ifcph", "hll"), (1, 2))
+    rows = courant.search((WAVE, COLUMN), ("ifcph", "hll"), (1, 2))
+    return pd.DataFrame(rows, columns=list(courant.COLUMNS))
 
 
 @pytest.mark.parametrize("order", [1, 2])

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from subslide.points import Point
+from subslide.results import Results
+from subslide.tables import _write
 
 
 def made_up_run(point: Point, steps: int = 20, grown: int = 0, **changes) -> SimpleNamespace:
@@ -54,6 +56,19 @@ def made_up_run(point: Point, steps: int = 20, grown: int = 0, **changes) -> Sim
 def make_run():
     """Function that makes up the result of a point."""
     return made_up_run
+
+
+@pytest.fixture
+def write_tables():
+    """Function that writes tables of the study in a folder, all that every study has unless named, and reads it."""
+
+    def write(folder, *names):
+        of_bands = ("bands",) if Results(folder).companions else ()
+        for name in names or (*of_bands, "runs", "timing", "series"):
+            _write.write(name, Results(folder))
+        return Results(folder)
+
+    return write
 
 
 @pytest.fixture

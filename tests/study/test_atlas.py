@@ -6,18 +6,18 @@ import pytest
 from subslide import exact
 from subslide.__main__ import main
 from subslide.jobs import read_batch
-from subslide.pages.verification import END, START
+from subslide.pages import renewal
 from subslide.records import netcdf as records
+from subslide.results import Results
 from subslide.study import batches as ledger
 from subslide.study import config
 from subslide.tables import atlas
-from subslide.tables import runs as tables
 
 COLUMN = {"model": "radial", "boundary": "wall", "figures": "none"}
 
 
 @pytest.fixture
-def folder(tmp_path, make_run):
+def folder(tmp_path, make_run, write_tables):
     """Function that makes up a study, each run changed by `change(point)`, and its atlas; returns the table."""
 
     def finish(change, **values):
@@ -27,9 +27,10 @@ def folder(tmp_path, make_run):
             points = read_batch(tmp_path / "batches" / f"{name}.json")
             runs = [make_run(point, **{"energy": falling(point), **change(point)}) for point in points]
             records.write(tmp_path / "records" / f"{name}.nc", runs)
-        tables.write(tmp_path)
-        atlas.write(tmp_path)
-        return atlas.read(tmp_path)
+        write_tables(tmp_path)
+        rows = write_tables(tmp_path, "atlas").atlas
+        texts = ["status_detail", "reference", "reason"]
+        return rows.assign(**{name: rows[name].astype(object).fillna("") for name in texts})
 
     return finish
 
@@ -146,13 +147,13 @@ def test_methods_are_counted_and_the_page_gets_their_table(folder, tmp_path, cap
         ],
     )
     page = tmp_path / "page.md"
-    page.write_text(f"before\n{START}\nold\n{END}\nafter\n")
+    page.write_text("\n".join(["before", renewal.LAST_RUN[0], "old", renewal.LAST_RUN[1], "after", ""]))
     assert main(["atlas", str(tmp_path), "-o", str(page)]) == 0
     said = capsys.readouterr().out
     assert "8 runs; ok: 6, step_collapse: 2" in said
     failed = rows[rows["status"] == "step_collapse"]["id"]
     assert (
-        f"2 runs failed or gained energy outside every region that guard.py cautions of: {' '.join(failed)}"
+        f"2 runs failed or gained energy outside every region that `subslide check` cautions of: {' '.join(failed)}"
         in said
     )
     text = page.read_text()
@@ -165,4 +166,4 @@ def test_methods_are_counted_and_the_page_gets_their_table(folder, tmp_path, cap
 def test_a_study_without_an_atlas_is_told(tmp_path):
     (tmp_path / "tables").mkdir()
     with pytest.raises(config.ConfigError, match="there is no such file"):
-        atlas.read(tmp_path)
+        Results(tmp_path).table("atlas")

@@ -5,13 +5,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from subslide.__main__ import main
 from subslide.jobs import read_batch
 from subslide.records import netcdf as records
-from subslide.results import Results
 from subslide.study import batches as ledger
 from subslide.study import config
 from subslide.tables import bands
-from subslide.tables import runs as tables
 from subslide.tables._convergence import CONVERGING, NOT_CONVERGED
 
 FINAL = 0.14
@@ -19,7 +18,7 @@ FINAL = 0.14
 
 
 @pytest.fixture
-def finish(tmp_path):
+def finish(tmp_path, write_tables):
     """Function that finishes a study with runs that `make(point)` gives, and returns its results."""
 
     def finish(make, **axes):
@@ -29,8 +28,7 @@ def finish(tmp_path):
         for name in plan.batches:
             points = read_batch(tmp_path / "batches" / f"{name}.json")
             records.write(tmp_path / "records" / f"{name}.nc", [make(point) for point in points])
-        tables.write(tmp_path)
-        return Results(tmp_path)
+        return write_tables(tmp_path)
 
     return finish
 
@@ -68,8 +66,8 @@ def test_every_quantity_has_its_row_and_the_limit_is_found(finish, first_order):
 def test_the_table_of_runs_repeats_bands_and_holds_no_companion(finish, first_order):
     results = finish(first_order, a_H=[1, 2])
     assert results.runs["cells"].tolist() == [160, 160]
-    assert [row["cells"] for row in results.points] == [160, 160]
-    assert {row["cells"] for row in results.companions} == {80, 40}
+    assert [run.point.cells for run in results.runs_of_study] == [160, 160]
+    assert {one.point.cells for one in results.companions} == {80, 40}
     for name in bands.ONCE:
         rows = results.bands[results.bands["quantity"] == name]
         for part in bands.SUMMARY:
@@ -83,7 +81,7 @@ def test_a_companion_that_is_asked_for_is_one_point(finish, first_order):
     assert (
         values.loc[(fine, "L_f_1pc"), "value_2"].tolist() == values.loc[(coarse, "L_f_1pc"), "value"].tolist()
     )
-    ids = [row["id"] for row in results.points] + [row["id"] for row in results.companions]
+    ids = [run.id for run in (*results.runs_of_study, *results.companions)]
     assert len(set(ids)) == 4
 
 
@@ -117,6 +115,7 @@ def test_what_a_run_does_not_have_has_no_row(finish, first_order):
 def test_without_bands_there_is_no_table(finish, first_order):
     finish(first_order, a_H=[1])
     results = finish(first_order, a_H=[1], bands=False)
+    assert main(["tables", str(results.folder)]) == 0
     assert not (results.folder / "tables/bands.csv").exists()
     assert list(results.bands.columns) == list(bands.COLUMNS)
     assert results.bands.empty
@@ -131,9 +130,9 @@ def test_on_real_runs_the_answer_of_a_finer_grid_lies_in_the_band(finish):
     from subslide.solver import solve
 
     results = finish(solve, a_H=[1, 10], cells=1600)
-    for row in results.points:
-        finer = solve(config.make_point({"model": "radial", "a_H": row["a_H"], "cells": 3200}))
-        found = results.bands[results.bands["id"] == row["id"]].set_index("quantity")
+    for run in results.runs_of_study:
+        finer = solve(config.make_point({"model": "radial", "a_H": run.point.a_H, "cells": 3200}))
+        found = results.bands[results.bands["id"] == run.id].set_index("quantity")
         lengths = found.loc[["L_f_1pc", "L_f_3pc", "L_f_5pc"]]
         assert (np.abs(lengths["value"] - finer.L_f) < lengths["band"]).all()
         assert (lengths["band"] < 0.02 * lengths["value"]).all()  # and it is no empty statement

@@ -7,10 +7,10 @@ import pandas as pd
 import pytest
 
 from subslide.__main__ import main
+from subslide.keys.schema import ConfigError
 from subslide.laboratory import lube as laboratory
 from subslide.points import PAPER_TIMES
 from subslide.tables import claims
-from subslide.tables._claims import page
 from subslide.tables._claims.evidence import THRESHOLDS, WAVES, Evidence
 
 DEPTHS, RATIOS = (1.0, 2.0, 10.0), (0.0, 0.2, 0.4, 0.6, 0.8)
@@ -48,13 +48,21 @@ def study(world=as_said, band=None, kinds=("paper", "resolved"), depths=DEPTHS, 
                     bands.append((name, quantity, time, value, band * value, word))
     columns = ["id", "quantity", "time", "value", "band", "convergence"]
     return SimpleNamespace(
-        runs=pd.DataFrame(runs), series=pd.concat(series), bands=pd.DataFrame(bands, columns=columns)
+        folder="made up",
+        runs=pd.DataFrame(runs),
+        series=pd.concat(series),
+        bands=pd.DataFrame(bands, columns=columns),
     )
+
+
+def judged(results):
+    """Table of claims."""
+    return pd.DataFrame(claims.table(results), columns=list(claims.COLUMNS))
 
 
 def verdicts(results, column="resolved_verdict"):
     """Verdict of each claim by its words."""
-    table = claims.judged(results)
+    table = judged(results)
     return dict(zip(table["claim"], table[column], strict=True))
 
 
@@ -153,7 +161,7 @@ def test_one_comparison_beyond_its_band_refutes_and_none_unknown_supports():
 
 
 def test_numbers_are_those_of_the_tables():
-    table = claims.judged(study(band=0.01)).set_index("claim")
+    table = judged(study(band=0.01)).set_index("claim")
     length = as_said(1.0, 0.8)[0]
     row = table.loc["L_f smaller for bigger r"]
     assert f"{length:.4g}±{0.01 * length:.1g} (a_H = 1)" in row["resolved"]
@@ -165,10 +173,11 @@ def test_what_a_study_lacks_is_left_out():
     assert "L_f smaller for bigger r" in few
     assert "L_f smaller for bigger a_H" not in few
     assert "good agreement with the laboratory at r = 0" not in few
-    assert claims.judged(study(kinds=("default",))).empty
-    one = claims.judged(study(kinds=("resolved",)))
+    with pytest.raises(ConfigError, match="no runs that a claim speaks of"):
+        claims.table(study(kinds=("default",)))
+    one = judged(study(kinds=("resolved",)))
     assert set(one["paper_numerics_verdict"]) == {""}
-    assert claims.judged(study(ratios=(0.0,)))["claim"].str.startswith("wave").sum() == 0
+    assert judged(study(ratios=(0.0,)))["claim"].str.startswith("wave").sum() == 0
 
 
 def test_a_deposit_that_still_moves_has_no_length():
@@ -186,20 +195,20 @@ def test_the_arrival_of_the_front_has_the_band_of_its_length():
 
 def test_the_verb_refuses_what_is_no_study(tmp_path, capsys):
     assert main(["claims", str(tmp_path)]) == 2
-    assert "no tables/runs.csv" in capsys.readouterr().err
+    assert "points.json: there is no such file" in capsys.readouterr().err
 
 
 def test_the_text_holds_every_claim_and_verdict():
-    table = claims.judged(study(band=1e-5))
-    text = claims.text(table)
+    table = judged(study(band=1e-5))
+    text = claims.text(SimpleNamespace(lines=lambda _: table.to_dict("records")))
     assert all(words in text for words in table["claim"])
     assert text.count("SUPPORTED (as computed") == 2 * len(table)
     assert max(map(len, text.splitlines())) <= 110
 
 
 def test_the_page_holds_every_claim_and_escapes_what_it_shows():
-    table = claims.judged(study(band=1e-5))
-    text = page.html(table, claims.KINDS)
+    table = judged(study(band=1e-5))
+    text = claims.html(table.to_dict("records"))
     assert text.count("<tr>") == len(table) + 1
     assert text.count("<b>supported</b>") == (table.filter(like="_verdict") == "supported").sum().sum()
     assert "r &gt; 0" in text

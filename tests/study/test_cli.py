@@ -83,6 +83,7 @@ def test_bad_verbs_and_their_inputs(capsys):
     assert "no such file" in complaint(capsys, "batch", "absent.json", "-o", "x.nc")
     assert "model: radal" in complaint(capsys, "warm", "radal:float64")
     assert "nowhere" in complaint(capsys, "tables", "nowhere")
+    assert "did you mean 'runs'?" in complaint(capsys, "table", "rnus", "nowhere")
     assert "figure: absent" in complaint(capsys, "figure", "absent", "--results", ".", "-o", ".")
 
 
@@ -144,6 +145,35 @@ def test_a_batch_leaves_a_checksum_beside_its_record(capsys):
     assert capsys.readouterr().out.count("\n") == 3
     assert read("b.nc")[0]["id"].values.tolist() == [p.id for p in study.points]
     assert Path("b.nc.sha256").read_text() == f"{jobs.file_hash('b.nc')}  b.nc\n"
+
+
+@pytest.mark.parametrize("damage", ["a byte", "half", "nothing left"])
+def test_a_damaged_record_gets_one_line(damage, capsys, make_run, write_tables):
+    from pathlib import Path
+
+    from subslide.records import netcdf
+    from subslide.study import batches, config
+
+    folder = Path("study")
+    study = config.make_study({"study": "t", "a_H": [1, 2], "model": "radial", "cells": 20})
+    (batch,) = batches.plan(study, folder, extend=True).batches
+    record = folder / f"records/{batch}.nc"
+    record.parent.mkdir()
+    netcdf.write(record, [make_run(point) for point in study.points])
+    write_tables(folder)
+    before = {path: path.read_bytes() for path in (folder / "tables").iterdir()}
+    content = bytearray(record.read_bytes())
+    content[len(content) // 2] ^= 1
+    record.write_bytes({"a byte": content, "half": content[: len(content) // 2], "nothing left": b""}[damage])
+    verbs = [["table", name, "study"] for name in ("runs", "timing", "series")]
+    for words in (*verbs, ["tables", "study"], ["figure", "fig05_h2_by_r", "--results", "study", "-o", "."]):
+        assert main(words) == 1
+        out, err = capsys.readouterr()
+        assert out == ""
+        assert err.startswith(f"subslide: {record}: ")
+        assert "damaged" in err
+        assert err.count("\n") == 1
+    assert {path: path.read_bytes() for path in (folder / "tables").iterdir()} == before
 
 
 def test_kernels_are_cached_in_a_folder_of_their_sources(tmp_path):

@@ -8,11 +8,12 @@ from subslide import exact
 from subslide.__main__ import main
 from subslide.jobs import read_batch
 from subslide.keys.schema import ConfigError
-from subslide.pages import verification
+from subslide.pages import renewal, verification
 from subslide.records import netcdf as records
+from subslide.results import Results
 from subslide.study import batches as ledger
 from subslide.study import config
-from subslide.tables import errors
+from subslide.tables import _orders, errors
 
 WAVE = {
     "scene": "standing_wave",
@@ -24,7 +25,7 @@ WAVE = {
 
 
 @pytest.fixture
-def folder(tmp_path, make_run):
+def folder(tmp_path, make_run, write_tables):
     """Function that makes up a study whose profiles are exact but for `shift(point)`, in units of the amplitude."""
 
     def finish(shift, **values):
@@ -33,7 +34,7 @@ def folder(tmp_path, make_run):
             (tmp_path / "records").mkdir(exist_ok=True)
             points = read_batch(tmp_path / "batches" / f"{name}.json")
             records.write(tmp_path / "records" / f"{name}.nc", [solved(make_run, p, shift) for p in points])
-        errors.write(tmp_path)
+        write_tables(tmp_path, "errors")
         return tmp_path
 
     return finish
@@ -100,7 +101,7 @@ def test_failed_runs_fail_verification(folder):
     found = folder(lambda point: None if point.cells == 160 else 1 / point.cells, order=1, **WAVE)
     rows = table(found)
     assert rows[rows["cells"] == 160]["verdict"].tolist() == [errors.FAILED] * 2
-    assert verification.lines(rows)[0].verdict == errors.FAILED
+    assert _orders.lines(rows)[0].verdict == errors.FAILED
     assert main(["verify", str(found)]) == 1
 
 
@@ -123,7 +124,7 @@ def test_the_front_is_compared_with_the_exact_edge(folder):
 def test_the_page_keeps_its_text_and_gets_the_table(folder, tmp_path):
     found = folder(lambda point: 40 / point.cells, order=1, **WAVE)
     page = tmp_path / "page.md"
-    page.write_text(f"before\n{verification.START}\nold\n{verification.END}\nafter\n")
+    page.write_text("\n".join(["before", renewal.LAST_RUN[0], "old", renewal.LAST_RUN[1], "after", ""]))
     assert main(["verify", str(found), "-o", str(page)]) == 0
     text = page.read_text()
     assert text.startswith("before\n")
@@ -131,7 +132,7 @@ def test_the_page_keeps_its_text_and_gets_the_table(folder, tmp_path):
     assert "old" not in text
     assert text.count("| reached |") == 2
     with pytest.raises(ConfigError, match="lacks the lines"):
-        verification.page("no marks", found)
+        verification.page("no marks", Results(found))
 
 
 def test_grains_at_rest_must_be_still(folder, monkeypatch):

@@ -16,7 +16,6 @@ from subslide.records.netcdf import read
 from subslide.scenes import NAMES, load
 from subslide.study import batches as ledger
 from subslide.study import config
-from subslide.tables import runs as tables
 
 MISTAKES = {
     ("elipse", ""): ("scene: elipse is not allowed", "did you mean 'ellipse'?"),
@@ -145,7 +144,7 @@ def test_a_run_tells_its_model_and_why(capsys, tmp_path):
         assert found["model_reason"].values[0] == reason
 
 
-def test_a_study_of_scenes_goes_from_points_to_tables(tmp_path, capsys):
+def test_a_study_of_scenes_goes_from_points_to_tables(tmp_path, capsys, write_tables):
     values = {"scene": "ellipse", "scene_options": {"elongation": [1, 1.5]}, "cells": 20, "t_end": 0.02}
     study = config.make_study({"study": "t", **values})
     plan = ledger.plan(study, tmp_path, extend=True)
@@ -156,7 +155,7 @@ def test_a_study_of_scenes_goes_from_points_to_tables(tmp_path, capsys):
         assert {p.id for p in read_batch(spec)} <= {p.id for p in study.points}
         assert main(["batch", str(spec), "-o", str(tmp_path / "records" / f"{name}.nc")]) == 0
     assert "(auto: " in capsys.readouterr().out
-    tables.write(tmp_path)
+    write_tables(tmp_path)
     runs = pd.read_csv(tmp_path / "tables" / "runs.csv")
     assert runs["id"].tolist() == [p.id for p in study.points]
     assert runs["scene_options"].tolist() == [

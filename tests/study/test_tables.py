@@ -9,11 +9,11 @@ from subslide.records import netcdf as records
 from subslide.results import Results
 from subslide.study import batches as ledger
 from subslide.study import config
-from subslide.tables import runs as tables
+from subslide.tables import _write, runs, series
 
 
 @pytest.fixture
-def finished(tmp_path, make_run):
+def finished(tmp_path, make_run, write_tables):
     """Function that makes up a finished study and returns its folder."""
 
     def finish(changes=None, **axes):
@@ -22,37 +22,39 @@ def finished(tmp_path, make_run):
         (tmp_path / "records").mkdir(exist_ok=True)
         for name in plan.batches:
             points = read_batch(tmp_path / "batches" / f"{name}.json")
-            runs = [make_run(p, steps=10 + n, **(changes or {}).get(p.a_H, {})) for n, p in enumerate(points)]
-            records.write(tmp_path / "records" / f"{name}.nc", runs)
-        tables.write(tmp_path)
+            solved = [
+                make_run(p, steps=10 + n, **(changes or {}).get(p.a_H, {})) for n, p in enumerate(points)
+            ]
+            records.write(tmp_path / "records" / f"{name}.nc", solved)
+        write_tables(tmp_path)
         return tmp_path
 
     return finish
 
 
 def test_runs_are_rows_in_the_order_of_the_study(finished):
-    runs = Results(finished(a_H=[2, 1, 10])).runs
-    assert runs["a_H"].tolist() == [2, 1, 10]
-    assert list(runs.columns) == list(tables.COLUMNS)
-    assert runs["L_f_1pc_over_R"].tolist() == pytest.approx([2.4] * 3)
-    assert runs["max_abs_eta_peak_time"].tolist() == pytest.approx([0.5, 0.5, 0.5], abs=0.05)
-    assert (runs["sediment_volume_error"] == 0).all()
+    table = Results(finished(a_H=[2, 1, 10])).runs
+    assert table["a_H"].tolist() == [2, 1, 10]
+    assert list(table.columns) == list(runs.COLUMNS)
+    assert table["L_f_1pc_over_R"].tolist() == pytest.approx([2.4] * 3)
+    assert table["max_abs_eta_peak_time"].tolist() == pytest.approx([0.5, 0.5, 0.5], abs=0.05)
+    assert (table["sediment_volume_error"] == 0).all()
 
 
 def test_failed_runs_are_rows(finished):
     nothing = {"status": "diverged", "L_f": np.full(3, np.nan), "time_at_rest": np.nan}
-    runs = Results(finished({2.0: nothing}, a_H=[1, 2])).runs
-    assert runs["status"].tolist() == ["ok", "diverged"]
-    assert runs["L_f_1pc"].isna().tolist() == [False, True]
+    table = Results(finished({2.0: nothing}, a_H=[1, 2])).runs
+    assert table["status"].tolist() == ["ok", "diverged"]
+    assert table["L_f_1pc"].isna().tolist() == [False, True]
 
 
 def test_series_are_tidy_and_without_padding(finished):
     results = Results(finished(a_H=[1, 2]))
     assert list(results.series.columns) == ["id", "time", "quantity", "value"]
     assert not results.series.isna().any().any()
-    assert set(results.series["quantity"]) == set(tables.QUANTITIES)
+    assert set(results.series["quantity"]) == set(series.QUANTITIES)
     counts = results.series.groupby("id", sort=False)["time"].count()
-    assert counts.tolist() == [11 * len(tables.QUANTITIES), 12 * len(tables.QUANTITIES)]
+    assert counts.tolist() == [11 * len(series.QUANTITIES), 12 * len(series.QUANTITIES)]
 
 
 def test_quantities_a_run_lacks_have_no_rows(finished):
@@ -64,22 +66,22 @@ def test_quantities_a_run_lacks_have_no_rows(finished):
 
 def test_timing_is_apart_from_results(finished):
     folder = finished(a_H=[1])
-    assert "wall_seconds" not in tables.COLUMNS
+    assert "wall_seconds" not in runs.COLUMNS
     assert pd.read_csv(folder / "tables/timing.csv")["cell_updates_per_second"].tolist() == [20 * 10 / 0.5]
 
 
-def test_identical_studies_give_identical_tables(finished):
+def test_identical_studies_give_identical_tables(finished, write_tables):
     folder = finished(a_H=[1, 2])
     before = [(folder / "tables" / name).read_bytes() for name in ("runs.csv", "series.csv")]
-    tables.write(folder)
+    write_tables(folder)
     assert [(folder / "tables" / name).read_bytes() for name in ("runs.csv", "series.csv")] == before
 
 
 def test_large_studies_have_parquet(finished, monkeypatch):
-    monkeypatch.setattr(tables, "MOST_RUNS_IN_CSV", 1)
+    monkeypatch.setattr(series, "MOST_RUNS_IN_CSV", 1)
     folder = finished(a_H=[1, 2])
     assert not (folder / "tables/series.csv").exists()
-    assert len(Results(folder).series) == 23 * len(tables.QUANTITIES)
+    assert len(Results(folder).series) == 23 * len(series.QUANTITIES)
 
 
 def test_selection_by_value(finished):
@@ -94,3 +96,43 @@ def test_volume_errors_count_only_what_cannot_have_left(make_run, finished):
     late[-1] = 1.0  # waves left the box
     results = Results(finished({1.0: {"water_volume": late[-11:], "boundary": "open"}}, a_H=[1], cells=12))
     assert results.runs["water_volume_error"].tolist() == [0.0]
+
+
+def test_runs_have_their_points_and_variables_without_padding(finished):
+    results = Results(finished(a_H=[1, 2]))
+    (first, short), (second, long) = results.each("time", "x_front", "h2", "x", "status", "absent")
+    assert (first.point.a_H, second.point.a_H) == (1, 2)
+    assert first.point.id == first.id
+    assert [len(record["time"]) for record in (short, long)] == [11, 12]
+    assert short["x_front"].shape == (3, 11)
+    assert short["h2"].shape == (3, len(short["x"]))
+    assert short["status"] == "ok"
+    assert "absent" not in short
+
+
+def test_a_large_study_is_read_in_parts_with_the_same_result(finished, monkeypatch):
+    folder = finished(a_H=[1, 2, 3, 4, 5])
+    whole = [(run.id, record["time"].tolist()) for run, record in Results(folder).each("time")]
+    monkeypatch.setattr("subslide.results.MOST_BYTES", 1.0)  # one run at a time
+    assert [(run.id, record["time"].tolist()) for run, record in Results(folder).each("time")] == whole
+
+
+@pytest.mark.parametrize("float_format", ["", "%.10g"])
+def test_rows_are_written_as_pandas_would(float_format):
+    rows = [
+        {"a": 1, "b": 1, "c": "x, y", "d": True, "e": 1e-5, "f": None, "g": "rest", "h": np.nan},
+        {
+            "a": 2,
+            "b": np.nan,
+            "c": 'a "b"',
+            "d": False,
+            "e": np.float64(1) / 3,
+            "f": "z",
+            "g": 0.05,
+            "h": None,
+        },
+        {"a": np.int32(3), "b": 2.5, "c": "", "e": np.inf, "g": 1.0 / 3},
+    ]
+    made = _write.csv_text("abcdefgh", rows, float_format)
+    frame = pd.DataFrame(rows, columns=list("abcdefgh"))
+    assert made == frame.to_csv(index=False, lineterminator="\n", float_format=float_format or None)

@@ -9,12 +9,12 @@ import pytest
 from subslide.__main__ import main
 from subslide.jobs import read_batch
 from subslide.keys.schema import ConfigError
-from subslide.pages import _work_precision_old as work_precision
-from subslide.pages import work_precision as quotes
+from subslide.pages import work_precision as page_of
 from subslide.points import PAPER_RADIUS, Point
 from subslide.records import netcdf as records
 from subslide.study import batches as ledger
 from subslide.study import config
+from subslide.tables import _choices as words_of
 from subslide.tables import _problems as problems
 from subslide.tables import cheapest
 from subslide.tables import work_precision as table
@@ -46,7 +46,7 @@ def seconds_of(point: Point) -> float:
 
 
 @pytest.fixture
-def folder(tmp_path, make_run):
+def folder(tmp_path, make_run, write_tables):
     """Function that makes up a study whose runs differ from their limit by `error(point)`; None: the run failed."""
 
     def finish(error=error_of, **values):
@@ -56,7 +56,7 @@ def folder(tmp_path, make_run):
             points = read_batch(tmp_path / "batches" / f"{name}.json")
             runs = [solved(make_run, point, error(point)) for point in points]
             records.write(tmp_path / "records" / f"{name}.nc", runs)
-        work_precision.write(tmp_path)
+        write_tables(tmp_path, "work_precision", "cheapest")
         return tmp_path
 
     return finish
@@ -159,19 +159,9 @@ def test_a_run_that_ended_before_its_time_has_no_error_of_series(make_run):
 
 
 def _as_record(run):
-    """Dataset of a made-up run, as far as it is read."""
-    import xarray as xr
-
-    return xr.Dataset(
-        {
-            "time": ("step", run.time),
-            "x_front": (("front_threshold", "step"), run.x_front),
-            "max_abs_eta": ("step", run.max_abs_eta),
-            "max_abs_eta_outside": ("step", run.max_abs_eta_outside),
-            "L_f": ("front_threshold", run.L_f),
-            "status": run.status,
-        }
-    )
+    """Variables of a made-up run, as far as they are read."""
+    names = ("time", "x_front", "max_abs_eta", "max_abs_eta_outside", "L_f", "status")
+    return {name: getattr(run, name) for name in names}
 
 
 def test_factors_are_those_at_equal_error(folder):
@@ -237,7 +227,7 @@ def test_waves_are_compared_until_the_edge():
 def test_the_verb_prints_and_renews_pages(folder, tmp_path, capsys):
     found = folder()
     page = tmp_path / "page.md"
-    page.write_text("a\n" + "\nb\n".join((*quotes.CHOICES, *quotes.EQUAL)) + "\nc\n")
+    page.write_text("a\n" + "\nb\n".join((*page_of.CHOICES, *page_of.EQUAL)) + "\nc\n")
     assert main(["work-precision", str(found), "-o", str(page)]) == 0
     assert "64,000" in capsys.readouterr().out
     text = page.read_text()
@@ -264,7 +254,7 @@ def test_a_study_without_a_sweep_is_refused(folder):
     [(1.234e-4, "0.12 ms"), (0.4821, "480 ms"), (0.999, "1 s"), (9.96, "10 s"), (643.0, "640 s")],
 )
 def test_seconds_in_words(value, text):
-    assert quotes.seconds(value) == text
+    assert words_of.seconds(value) == text
 
 
 def test_other_numerics_are_named_and_the_default_stands_beside():
@@ -275,7 +265,7 @@ def test_other_numerics_are_named_and_the_default_stands_beside():
         "seconds": 0.004,
     }
     default = pd.Series(row)
-    assert quotes.choice(default, default) == "80 cells, 4 ms"
+    assert words_of.choice(default, default) == "80 cells, 4 ms"
     other = {
         "scheme": "hll",
         "order": 1,
@@ -285,7 +275,7 @@ def test_other_numerics_are_named_and_the_default_stands_beside():
     }
     best = pd.Series({**row, **other, "id": "q", "seconds": 0.003})
     words = "quarter, HLL, approximate wave speeds, order 1, float32, 80 cells, 3 ms"
-    assert quotes.choice(best, default) == f"{words} (default: 80 cells, 4 ms)"
+    assert words_of.choice(best, default) == f"{words} (default: 80 cells, 4 ms)"
     nothing = pd.Series({**row, "id": math.nan})
-    assert quotes.choice(best, nothing) == f"{words} (default: none known)"
-    assert quotes.choice(nothing, nothing) == "none known"
+    assert words_of.choice(best, nothing) == f"{words} (default: none known)"
+    assert words_of.choice(nothing, nothing) == "none known"

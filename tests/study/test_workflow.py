@@ -9,7 +9,27 @@ import sys
 import pandas as pd
 import pytest
 
+TABLES = {"table_runs": 1, "table_series": 1, "table_timing": 1}
 STUDY = "study: small\na_H: [1, 2]\nr: 0.4\nmodel: radial\ncells: 20\nt_end: 0.05\nfigures: none\n"
+
+NEW_TABLE = '''"""Where runs end."""
+
+TITLE = "Ends of runs"
+ABOUT = "One row a run."
+READS = ("records", "runs")
+COLUMNS = {"id": ("", "name of the run"), "end": ("m", "length of the deposit")}
+
+
+def needs(study):
+    """Return '' for every study."""
+    return ""
+
+
+def table(results):
+    """Give the rows."""
+    for run, record in results.each("L_f"):
+        yield {"id": run.id, "end": record["L_f"][0]}
+'''
 
 pytestmark = pytest.mark.xdist_group("workflow")  # one worker: the tests share a finished study
 
@@ -79,7 +99,7 @@ def project(finished, tmp_path):
 
 
 def test_a_study_ends_with_records_tables_and_report(finished):
-    assert finished.first == {"warm": 1, "batch": 1, "tables": 1, "report": 1}
+    assert finished.first == {"warm": 1, "batch": 1, **TABLES, "report": 1}
     assert finished.runs()["status"].isin(["ok", "not_at_rest"]).all()
     assert len(finished.runs()) == 2
     for name in ("records/0001.nc", "tables/series.csv", "tables/timing.csv", "report.html"):
@@ -104,7 +124,7 @@ def test_a_wider_grid_computes_only_what_is_new(project):
     record = project.results / "records/0001.nc"
     before = record.stat().st_mtime_ns
     project.configure(STUDY.replace("a_H: [1, 2]", "a_H: [0.5, 2, 1]"))
-    assert project.jobs() == {"batch": 1, "tables": 1, "report": 1}
+    assert project.jobs() == {"batch": 1, **TABLES, "report": 1}
     assert record.stat().st_mtime_ns == before
     assert project.runs()["a_H"].tolist() == [0.5, 2, 1]
     assert project.jobs() == {}
@@ -114,11 +134,11 @@ def test_bands_solve_companions_alone_and_leave_no_trace_when_removed(project):
     """The study is solved at 20 cells; asked for at 40, it has those runs as companions, and lacks 10 cells alone."""
     text = STUDY.replace("cells: 20", "cells: 40")
     project.configure(text)
-    assert project.jobs() == {"batch": 1, "tables": 1, "report": 1}
+    assert project.jobs() == {"batch": 1, **TABLES, "report": 1}
     plain = project.runs()
     records = {path: path.stat().st_mtime_ns for path in project.results.glob("records/*.nc")}
     project.configure(text + "bands: true\n")
-    assert project.jobs() == {"batch": 1, "tables": 1, "report": 1}
+    assert project.jobs() == {"batch": 1, **TABLES, "table_bands": 1, "report": 1}
     assert records.items() <= {p: p.stat().st_mtime_ns for p in project.results.glob("records/*.nc")}.items()
     assert project.jobs("-n") == {}
     bands, runs = pd.read_csv(project.results / "tables/bands.csv"), project.runs()
@@ -128,16 +148,16 @@ def test_bands_solve_companions_alone_and_leave_no_trace_when_removed(project):
     assert final["convergence"].tolist() == runs["L_f_1pc_convergence"].tolist()
     assert set(pd.read_csv(project.results / "tables/series.csv")["id"]) == set(runs["id"])
     project.configure(text)
-    assert project.jobs() == {"tables": 1, "report": 1}
+    assert project.jobs() == {**TABLES, "report": 1}
     assert not (project.results / "tables/bands.csv").exists()
     pd.testing.assert_frame_equal(project.runs(), plain)
 
 
 def test_another_order_or_fewer_points_renew_the_tables_alone(project):
     project.configure(STUDY.replace("a_H: [1, 2]", "a_H: [2.0, 1]"))
-    assert project.jobs("-n") == {"tables": 1, "report": 1}
+    assert project.jobs("-n") == {**TABLES, "report": 1}
     project.configure(STUDY.replace("a_H: [1, 2]", "a_H: [2]"))
-    assert project.jobs() == {"tables": 1, "report": 1}
+    assert project.jobs() == {**TABLES, "report": 1}
     assert project.runs()["a_H"].tolist() == [2]
 
 
@@ -147,14 +167,36 @@ def test_changed_code_runs_everything_again(project):
     with open(source / "subslide/fields.py", "a") as file:
         file.write("# a change\n")
     again = project.jobs("-n", PYTHONPATH=str(source))
-    assert again == {"warm": 1, "batch": 1, "tables": 1, "report": 1}
+    assert again == {"warm": 1, "batch": 1, **TABLES, "report": 1}
 
 
-def test_a_changed_figure_solves_nothing(project):
-    source = shutil.copytree(project.root / "src", project.folder / "src")
-    with open(source / "subslide/figures/__init__.py", "a") as file:
+def change(source, name):
+    """Add a comment to a source file of the package."""
+    with open(source / "subslide" / name, "a") as file:
         file.write("# a change\n")
+
+
+def test_a_changed_table_page_or_figure_solves_nothing(project):
+    source = shutil.copytree(project.root / "src", project.folder / "src")
+    for name in ("figures/__init__.py", "pages/tables.py", "tables/claims.py", "__main__.py"):
+        change(source, name)
     assert project.jobs("-n", PYTHONPATH=str(source)) == {}
+    change(source, "tables/timing.py")
+    assert project.jobs("-n", PYTHONPATH=str(source)) == {"table_timing": 1, "report": 1}
+    change(source, "tables/_convergence.py")  # bands are made with it, and runs repeat bands
+    assert project.jobs("-n", PYTHONPATH=str(source)) == {"table_runs": 1, "table_timing": 1, "report": 1}
+    change(source, "results.py")
+    assert project.jobs("-n", PYTHONPATH=str(source)) == {**TABLES, "report": 1}
+
+
+def test_a_new_table_is_one_file(project):
+    source = shutil.copytree(project.root / "src", project.folder / "src")
+    (source / "subslide/tables/ends.py").write_text(NEW_TABLE)
+    assert project.jobs(PYTHONPATH=str(source)) == {"table_ends": 1, "report": 1}
+    ends = pd.read_csv(project.results / "tables/ends.csv")
+    assert ends["end"].tolist() == project.runs()["L_f_1pc"].tolist()
+    (source / "subslide/tables/ends.py").unlink()
+    assert project.jobs(PYTHONPATH=str(source))["report"] == 1
 
 
 def test_a_damaged_record_is_solved_again_though_its_time_and_size_are_kept(project):
@@ -196,20 +238,20 @@ def test_a_sweep_of_numerics_is_charted_and_other_studies_are_not(project):
     sweep = f"study: small\nr: 0.4\ncells: 20\nt_end: 0.05\nfigures: [work_precision]\ncases:\n{cases}"
     project.configure(sweep)
     jobs = project.jobs("-n")
-    assert jobs["work_precision"] == jobs["figure_work_precision"] == 1
-    project.snakemake("--until", "work_precision")
+    assert jobs["table_work_precision"] == jobs["table_cheapest"] == jobs["figure_work_precision"] == 1
+    project.snakemake("--until", "table_cheapest")
     rows = pd.read_csv(project.results / "tables/work_precision.csv")
     assert rows[rows["quantity"] == "L_f"]["method"].tolist() == ["default"] * 3 + ["paper"]
     assert rows["error"].notna().all()
     assert (project.results / "tables/cheapest.csv").exists()
     project.configure(STUDY)
-    assert "work_precision" not in project.jobs("-n")
+    assert "table_work_precision" not in project.jobs("-n")
 
 
 def test_the_atlas_and_its_search_run_in_the_study_of_stability_alone(project):
-    assert "atlas" not in project.jobs("-n", "--forceall")
+    assert "table_atlas" not in project.jobs("-n", "--forceall")
     project.configure((project.root / "config/stability.yaml").read_text())
     jobs = project.jobs("-n")
-    assert jobs["atlas"] == jobs["cfl"] == jobs["tables"] == jobs["errors"] == 1
+    assert jobs["table_atlas"] == jobs["table_cfl"] == jobs["table_runs"] == jobs["table_errors"] == 1
     assert jobs["batch"] > 10
     assert sum(name.startswith("figure_stability_") for name in jobs) == 7
