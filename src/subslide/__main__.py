@@ -1,17 +1,19 @@
 """The command line, `subslide`: its verbs, and the exit status and one line that each way to fail has."""
 
+import importlib
 import os
 import sys
 
 import click
 
-from subslide.commands import cli, showing, solving, tabulating
+from subslide.commands import MODULES, cli
 from subslide.files import RecordError
 from subslide.keys.schema import ConfigError
 
-__all__ = ["cli", "entry", "main", "showing", "solving", "tabulating"]
-
 BAD_INPUT, FAULT, INTERRUPTED = 2, 1, 130
+
+for module in MODULES:
+    importlib.import_module(module)
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -20,7 +20,7 @@ DAY = 86400.0
 
 
 def set_cache_folder() -> Path | None:
-    """Folder that numba will use, made if need be and set as NUMBA_CACHE_DIR; None if none can be written."""
+    """Set NUMBA_CACHE_DIR to a folder, made if need be, and return it; None if none can be written."""
     for root in _roots():
         folder = root / (PREFIX + source_hash("solver"))
         try:
@@ -38,7 +38,7 @@ def set_cache_folder() -> Path | None:
 
 
 def _roots() -> list[Path]:
-    """Folders to try, best first: the one the user set, the user's cache, a private one for temporary files."""
+    """Return the folders to try, best first: the one the user set, the user's cache, a private temporary one."""
     given = os.environ.get("NUMBA_CACHE_DIR")
     roots = []
     if given:

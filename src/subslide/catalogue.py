@@ -62,14 +62,14 @@ def table(name: str) -> Table:
 
 def literals(room: str, name: str) -> dict[str, Any]:
     """Return the constants of a plug-in, by name, whose values are literals in its source."""
-    found = {}
+    constants = {}
     for statement in _tree(PACKAGE / room / f"{name}.py").body:
         if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Name):
             try:
-                found[statement.targets[0].id] = ast.literal_eval(statement.value)
+                constants[statement.targets[0].id] = ast.literal_eval(statement.value)
             except ValueError:
                 continue
-    return found
+    return constants
 
 
 def columns(name: str) -> list[str]:
@@ -103,15 +103,15 @@ def imported(room: str, name: str) -> frozenset[str]:
 
 def _imports(room: str, name: str) -> set[str]:
     """Return the modules of a room that one of its modules imports itself, wherever it does so."""
-    found = set()
+    modules = set()
     for node in ast.walk(_tree(_module(room, name))):
         if isinstance(node, ast.ImportFrom) and f"{node.module}.".startswith(f"subslide.{room}."):
             base = node.module.split(".")[2:]
             for parts in (base, *([*base, alias.name] for alias in node.names)):
                 path = "/".join(parts)
                 if parts and _module(room, path).is_file():
-                    found.add(path)
-    return found
+                    modules.add(path)
+    return modules
 
 
 def _module(room: str, name: str) -> Path:

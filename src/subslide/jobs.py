@@ -21,7 +21,20 @@ from subslide.study.yaml_files import read_yaml
 
 
 def point_of(path: str | None, options: dict[str, str]) -> Point:
-    """Point of a configuration file, if any, and of options (texts by key), which win."""
+    """Return the point of a configuration file and of options.
+
+    Parameters
+    ----------
+    path
+        YAML file of one point, or None.
+    options
+        Texts by key; they win over the file.
+
+    Raises
+    ------
+    ConfigError
+        If a key or value is not allowed, or the point is no run.
+    """
     values = read_yaml(path) if path else {}
     names = {key: f"{path}: {key}" for key in values}
     for key, text in options.items():
@@ -34,7 +47,7 @@ def point_of(path: str | None, options: dict[str, str]) -> Point:
 
 
 def check_output(path: str, inputs: list[str]) -> None:
-    """Nothing; ConfigError unless a file can be written at `path`, which is none of the inputs."""
+    """Raise ConfigError unless a file can be written at `path`, which is none of the inputs."""
     target = Path(path)
     folder = target.parent
     if target.is_dir():
@@ -58,7 +71,7 @@ def set_threads(threads: int) -> None:
 
 
 def run(point: Point, threads: int, output: str) -> str:
-    """Line that tells the outcome of a run, whose record is then at `output`."""
+    """Solve a run, write its record to `output`, and return the line that tells its outcome."""
     from subslide import solver
     from subslide.records import netcdf as records
 
@@ -68,7 +81,7 @@ def run(point: Point, threads: int, output: str) -> str:
 
 
 def batch(spec: str, threads: int, output: str) -> Iterator[str]:
-    """Lines, one as each run of a batch file ends; then its record is at `output`, its SHA-256 in `output`.sha256."""
+    """Solve a batch file into a record at `output`, its SHA-256 in `output`.sha256; give a line as each run ends."""
     from subslide import solver
     from subslide.records import netcdf as records
     from subslide.records import thinning
@@ -85,7 +98,7 @@ def batch(spec: str, threads: int, output: str) -> Iterator[str]:
 
 
 def read_batch(spec: str) -> list[Point]:
-    """Points of a batch file, each checked against its id."""
+    """Return the points of a batch file, each checked against its id; ConfigError if it is none."""
     try:
         rows = json.loads(Path(spec).read_text(encoding="utf-8"))["points"]
         points = {row.pop("id"): from_dict(row) for row in rows}
@@ -104,7 +117,7 @@ def read_batch(spec: str) -> list[Point]:
 
 
 def warm(kernels: tuple[str, ...]) -> Iterator[str]:
-    """Lines, one for each 'model:dtype[:general]' whose kernels are then in the cache: each solves a tiny run."""
+    """Compile kernels, 'model:dtype[:general]', into the cache by solving a tiny run each; give a line for each."""
     from subslide import solver
 
     for kernel in kernels:
@@ -125,13 +138,13 @@ def warm(kernels: tuple[str, ...]) -> Iterator[str]:
 
 
 def file_hash(path: Path | str) -> str:
-    """SHA-256 (hex) of a file's bytes, as `sha256sum` prints it."""
+    """Return the SHA-256 (hex) of a file's bytes, as `sha256sum` prints it."""
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def summary(result) -> str:
-    """One line on a solved run: id, status, deposit, surface, model, steps and time."""
+    """Return one line on a solved run: id, status, deposit, surface, model, steps and time."""
     import numpy as np
 
     radius = result.point.radius
@@ -151,7 +164,7 @@ def summary(result) -> str:
 
 
 def _value_of_text(text):
-    """Number, list of numbers or text that the text of an option stands for."""
+    """Return the number, list of numbers or text that the text of an option stands for."""
     if not isinstance(text, str):
         return text
     if "," in text:
@@ -165,7 +178,7 @@ def _value_of_text(text):
 
 
 def _progress():
-    """Function that shows the fraction done on the terminal, once a run has taken a while."""
+    """Return a function that shows the fraction done on the terminal, once a run has taken a while."""
     import time
 
     start = last = time.monotonic()

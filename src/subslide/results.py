@@ -269,12 +269,12 @@ def _of_run(variables: dict, wanted: dict, place: int) -> dict[str, Any]:
         "x": cells,
         "y": cells,
     }
-    found = {}
+    parts = {}
     for name, variable in wanted.items():
         dims, values = variable.dims, variable.values
         if dims[:1] == ("run",):
             dims, values = dims[1:], values[place]
         for axis, dim in enumerate(dims):
             values = values[(*[slice(None)] * axis, kept.get(dim, slice(None)))]
-        found[name] = values.copy() if dims else values
-    return found
+        parts[name] = values.copy() if dims else values
+    return parts

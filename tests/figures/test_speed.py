@@ -8,16 +8,18 @@ import pytest
 
 from subslide import catalogue
 from subslide.figures import work_precision
+from subslide.points import Point
 from subslide.study.config import make_study
 from subslide.tables import work_precision as table
+from subslide.tables._problems import METHOD
 
 METHODS = {
     "default": {"model": "radial", "scheme": "ifcph", "order": 2, "seconds": 1e-3, "error": 0.04},
     "paper": {"model": "plane", "scheme": "ifcph", "order": 1, "seconds": 1.0, "error": 0.16},
     "": {"model": "quarter", "scheme": "roe", "order": 1, "seconds": 0.5, "error": 0.2},
 }
-ABOUT = {"a_2": 0.56, "r": 0.4, "delta": 32.0, "radius": 0.0705, "dtype": "float64", "cfl": 0.9}
-FLUX = {"front_flux": "exact", "wave_speeds": "exact"}
+ABOUT = {"a_2": 0.56, "r": 0.4, "delta": 32.0, "radius": 0.0705}
+USUAL = {key: getattr(Point(), key) for key in METHOD}
 
 
 def made_up(depths=(1.0, 10.0), failed=False):
@@ -32,7 +34,7 @@ def made_up(depths=(1.0, 10.0), failed=False):
                     some.append(
                         {
                             **ABOUT,
-                            **FLUX,
+                            **USUAL,
                             **method,
                             "id": f"{a_H}{name}{cells}",
                             "a_H": a_H,

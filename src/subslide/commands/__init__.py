@@ -1,4 +1,4 @@
-"""The verbs of the command line: `solving`, `tabulating` and `showing` add theirs to the group `cli`.
+"""The verbs of the command line: each module of this folder adds its own to the group `cli`.
 
 Start-up is most of a radial run's time, so what a verb needs is imported when it is called.
 """
@@ -7,6 +7,9 @@ import click
 
 import subslide
 from subslide.keys import schema
+
+MODULES = tuple(f"{__name__}.{name}" for name in ("solving", "tabulating", "showing"))
+"""Modules with verbs, in the order that help lists them."""
 
 
 class Verbs(click.Group):

@@ -10,7 +10,7 @@ from subslide.keys.schema import ConfigError
 
 
 def save(name: str, results: Path, output: Path) -> list[Path]:
-    """Paths of the PNG and SVG of a figure, the same bytes for the same results.
+    """Write a figure as PNG and SVG, the same bytes for the same results, and return their paths.
 
     name: one of the modules of `subslide.figures`; results: folder of the study; output: folder of the files.
     """

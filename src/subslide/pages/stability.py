@@ -7,6 +7,6 @@ from subslide.tables import _methods
 
 def page(text: str, results: Results) -> str:
     """Return the page `text` with the table of methods of a study; ConfigError without the marks or the atlas."""
-    found = _methods.methods(results.atlas)
-    rows = [list(found.columns), *found.astype(str).to_numpy().tolist()]
+    table = _methods.methods(results.atlas)
+    rows = [list(table.columns), *table.astype(str).to_numpy().tolist()]
     return renewal.renewed(text, renewal.LAST_RUN, rows)

@@ -7,5 +7,5 @@ from subslide.tables import _orders
 
 def page(text: str, results: Results) -> str:
     """Return the page `text` with the errors and orders of a study; ConfigError without the marks or the table."""
-    found = _orders.lines(results.errors)
-    return renewal.renewed(text, renewal.LAST_RUN, [_orders.HEADINGS, *(line.words() for line in found)])
+    lines = _orders.lines(results.errors)
+    return renewal.renewed(text, renewal.LAST_RUN, [_orders.HEADINGS, *(line.words() for line in lines)])

@@ -93,6 +93,6 @@ def case(row) -> str:
     return ", ".join([f"{row.scene} ({row.model})", *told])
 
 
-def text(found: list[Line]) -> str:
+def text(entries: list[Line]) -> str:
     """Return the lines as aligned text, with their headings."""
-    return aligned([HEADINGS, *(line.words() for line in found)])
+    return aligned([HEADINGS, *(line.words() for line in entries)])

@@ -89,21 +89,21 @@ def table(results: "Results") -> list[dict]:
     known = {one.id: one for one in (*results.runs_of_study, *results.companions)}
     by_batch = sorted(known.values(), key=lambda one: one.batch)
     measured = {one.id: measure(record) for one, record in results.each(*MEASURED, among=by_batch)}
-    found = []
+    compared = []
     for run in results.runs_of_study:
         names = (run.id, *(companions[run.id, role].id for role in COARSENING))
-        found += rows(run.point, *(measured[name] for name in names))
-    return found
+        compared += rows(run.point, *(measured[name] for name in names))
+    return compared
 
 
 def summaries(results: "Results") -> dict[str, dict[str, str]]:
     """Return the columns, as text, that the table of runs has for bands, by id of the run; none without bands."""
-    found = {}
+    columns = {}
     for row in results.lines("bands") if results.companions else ():
         if row["quantity"] in ONCE:
             parts = {f"{row['quantity']}_{part}": row[part] for part in SUMMARY}
-            found.setdefault(row["id"], {}).update(parts)
-    return found
+            columns.setdefault(row["id"], {}).update(parts)
+    return columns
 
 
 class Measured(NamedTuple):
