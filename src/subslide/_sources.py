@@ -1,5 +1,6 @@
 """Hashes of the package's own sources: they tell when results and compiled kernels are out of date."""
 
+import ast
 import functools
 import hashlib
 from pathlib import Path
@@ -14,6 +15,9 @@ JUDGING = ("results.py", "exact", "laboratory", "tables")
 SHOWING = ("figures", "pages", "commands", "__main__.py", "catalogue.py")
 """Rooms that draw, describe or call what the others make: a change here changes no record and no table."""
 
+WRITERS = frozenset({"__init__", "_write"})
+"""Modules of the room of tables that write any of them."""
+
 
 @functools.cache
 def source_hash(part: str = "record", name: str = "") -> str:
@@ -22,8 +26,8 @@ def source_hash(part: str = "record", name: str = "") -> str:
     Parameters
     ----------
     part
-        `solver`: compiled code. `record`: records. `table`: the table called `name`. `figure`: the figure called
-        `name`. Of the other tables or figures a table or figure takes only what it imports.
+        `solver`: compiled code. `record`: records. `table`: the table called `name`, so of the tables only what it
+        imports. `figure`: the figure called `name`, so all but the other figures and what describes or calls.
     name
         Name of the table or figure.
 
@@ -41,6 +45,46 @@ def source_hash(part: str = "record", name: str = "") -> str:
     return digest.hexdigest()[:12]
 
 
+@functools.cache
+def imported(room: str, name: str) -> frozenset[str]:
+    """Return the modules of a room that a plug-in is made of: its own, and all that it imports from the room.
+
+    Parameters
+    ----------
+    room, name
+        Folder of the package, and name of a file in it.
+
+    Returns
+    -------
+    frozenset of str
+        Paths without '.py' from the folder, such as `claims`, `_claims/grains`.
+    """
+    known, new = set(), {name}
+    while new:
+        known |= new
+        new = {other for one in new for other in _imports(room, one)} - known
+    return frozenset(known)
+
+
+def _imports(room: str, name: str) -> set[str]:
+    """Return the modules of a room that one of its modules imports itself, wherever it does so."""
+    modules = set()
+    for node in ast.walk(ast.parse(_module(room, name).read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and f"{node.module}.".startswith(f"subslide.{room}."):
+            base = node.module.split(".")[2:]
+            for parts in (base, *([*base, alias.name] for alias in node.names)):
+                path = "/".join(parts)
+                if parts and _module(room, path).is_file():
+                    modules.add(path)
+    return modules
+
+
+def _module(room: str, name: str) -> Path:
+    """Return the path of a module, or of the first file of a package, by its path from a room."""
+    path = PACKAGE / room / name
+    return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+
+
 def _belongs(source: Path, part: str, name: str) -> bool:
     """Return whether a source file, by its path within the package, counts for a part."""
     room = source.parts[0]
@@ -51,7 +95,7 @@ def _belongs(source: Path, part: str, name: str) -> bool:
     if part == "record":
         return room not in JUDGING
     if part == "table" and room == "tables":
-        return _path(source) in _modules(name)
+        return _path(source) in imported("tables", name) | WRITERS
     return True
 
 
@@ -59,11 +103,3 @@ def _path(source: Path) -> str:
     """Return the path of a module of a room, without '.py', from its room; a package's is that of its folder."""
     parts = source.with_suffix("").parts[1:]
     return "/".join(parts[:-1] if len(parts) > 1 and parts[-1] == "__init__" else parts)
-
-
-@functools.cache
-def _modules(name: str) -> frozenset[str]:
-    """Return the modules of the room of tables that make the table called `name`."""
-    from subslide import catalogue  # not at the start of every process: it is needed to plan a study alone
-
-    return catalogue.imported("tables", name) | {"__init__", "_write"}

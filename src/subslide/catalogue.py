@@ -81,46 +81,6 @@ def columns(name: str) -> list[str]:
 
 
 @functools.cache
-def imported(room: str, name: str) -> frozenset[str]:
-    """Return the modules of a room that a plug-in is made of: its own, and all that it imports from the room.
-
-    Parameters
-    ----------
-    room, name
-        Folder of the package, and name of a file in it.
-
-    Returns
-    -------
-    frozenset of str
-        Paths without '.py' from the folder, such as `claims`, `_claims/grains`.
-    """
-    known, new = set(), {name}
-    while new:
-        known |= new
-        new = {other for one in new for other in _imports(room, one)} - known
-    return frozenset(known)
-
-
-def _imports(room: str, name: str) -> set[str]:
-    """Return the modules of a room that one of its modules imports itself, wherever it does so."""
-    modules = set()
-    for node in ast.walk(_tree(_module(room, name))):
-        if isinstance(node, ast.ImportFrom) and f"{node.module}.".startswith(f"subslide.{room}."):
-            base = node.module.split(".")[2:]
-            for parts in (base, *([*base, alias.name] for alias in node.names)):
-                path = "/".join(parts)
-                if parts and _module(room, path).is_file():
-                    modules.add(path)
-    return modules
-
-
-def _module(room: str, name: str) -> Path:
-    """Return the path of a module, or of the first file of a package, by its path from a room."""
-    path = PACKAGE / room / name
-    return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
-
-
-@functools.cache
 def _tree(path: Path) -> ast.Module:
     """Return the syntax tree of a source file."""
     return ast.parse(path.read_text(encoding="utf-8"))

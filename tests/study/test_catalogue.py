@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from subslide import catalogue, tables
-from subslide._sources import source_hash
+from subslide._sources import imported, source_hash
 from subslide.points import RUN_KEYS
 from subslide.study.config import make_study
 
@@ -34,7 +34,7 @@ def test_a_table_says_what_it_is(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_table_imports_no_other_that_it_does_not_read(name):
-    others = {other for other in catalogue.imported("tables", name) if other in NAMES} - {name}
+    others = {other for other in imported("tables", name) if other in NAMES} - {name}
     assert others <= set(catalogue.table(name).reads), "its sources would not tell when it is out of date"
 
 
@@ -61,7 +61,7 @@ def test_columns_and_literals_are_read_from_sources():
     assert catalogue.columns("bands") == list(tables.load("bands").COLUMNS)
     assert catalogue.literals("tables", "cfl")["KERNELS"] == tables.load("cfl").KERNELS
     assert set(catalogue.figure("fig05_h2_by_r").needs) <= set(RUN_KEYS)
-    assert catalogue.imported("tables", "claims") >= {
+    assert imported("tables", "claims") >= {
         "claims",
         "_claims",
         "_claims/grains",
