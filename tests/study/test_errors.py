@@ -13,7 +13,7 @@ from subslide.records import netcdf as records
 from subslide.results import Results
 from subslide.study import batches as ledger
 from subslide.study import config
-from subslide.tables import _orders, errors
+from subslide.tables import _norms, _orders, errors
 
 WAVE = {
     "scene": "standing_wave",
@@ -138,7 +138,7 @@ def test_the_page_keeps_its_text_and_gets_the_table(folder, tmp_path):
 def test_grains_at_rest_must_be_still(folder, monkeypatch):
     pile = {"scene": "pile", "delta": 30, "cells": 40}
     assert set(table(folder(lambda point: 0.0, **pile))["verdict"]) == {errors.STILL}
-    monkeypatch.setattr(errors, "_change", lambda *_: 1e-17)
+    monkeypatch.setattr(_norms, "change", lambda *_: 1e-17)
     found = folder(lambda point: 0.0, **{**pile, "cells": 80})
     assert set(table(found)["verdict"]) == {errors.MOVED}
     assert main(["verify", str(found)]) == 1

@@ -53,24 +53,37 @@ UNKNOWN = Estimate(math.nan, math.nan, math.nan, NOT_CONVERGED)
 def estimate(
     f1: float, f2: float, f3: float, formal: float, *, scale: float = 0.0, dtype="float64"
 ) -> Estimate:
-    """Return the `Estimate` of a quantity from its values on three grids: f1 (finest), f2 (cells/2), f3 (cells/4).
+    """Return the `Estimate` of a quantity from its values on three grids, each twice as fine as the next.
 
     Order p = log2((f3 - f2)/(f2 - f1)), limit f1 + (f1 - f2)/(2^p - 1), band 1.25 |f3 - f2|/2^q/(2^q - 1) with
     q = min(p, formal).
 
-    formal: order at which the quantity can converge at best. Where p <= formal the band is Roache's index times |f1|,
+    Where p <= formal the band is Roache's index times |f1|,
     1.25 |f1 - f2|/(2^p - 1). A p above it says that f1 and f2 agree by chance, on their way through a turning point or
     before the leading error rules. Then their difference is no measure of the error, in whatever formula, and what the
     coarser pair would leave at the formal order takes its place. The limit takes p itself, as it states where the three
     values point; it is never farther from f1 than 0.8 of the band.
 
-    scale: size of the numbers from which the quantity was a difference, such as the depth of water for a displacement
-    of its surface; with `dtype`, that of the run, it tells what is round-off.
-
     Differences that change sign, or that shrink slower than h^0.3 or not at all, are 'not converged', without a limit,
     and the band is thrice the range of the values: small where only a last digit still moves. Where the two
     finest values agree to round-off p is beyond telling: 'converging', the limit is f1, and q the formal order, so
     that the band vanishes where all three agree. A value that is not finite is 'not converged', without a band.
+
+    Parameters
+    ----------
+    f1, f2, f3
+        Values on the finest grid, and with half and a quarter of its cells.
+    formal
+        Order at which the quantity can converge at best.
+    scale
+        Size of the numbers from which the quantity was a difference, such as the depth of water for a displacement of
+        its surface; it tells what is round-off.
+    dtype
+        Floating-point type of the run.
+
+    References
+    ----------
+    P. J. Roache, J. Fluids Eng. 116, 405 (1994); L. Eca and M. Hoekstra, J. Comput. Phys. 262, 104 (2014).
     """
     if not all(map(math.isfinite, (f1, f2, f3))):
         return UNKNOWN

@@ -4,14 +4,28 @@ import math
 
 import numpy as np
 
+from subslide import scenes
 from subslide.points import Point
 
 
 def rise(point: Point, model: str, half_width: float, energy, water, grains) -> float:
     """Return the largest rise of the energy after any moment, over what the start can release: its own less at rest.
 
-    model: the one solved; half_width (m) of its box, which nothing leaves. energy, water, grains: series of energy and
-    volumes as in a record; NaN where not known. NaN if the start has nothing to release.
+    Parameters
+    ----------
+    point
+        The run's.
+    model
+        The one that was solved.
+    half_width
+        Of the box (m), which nothing leaves.
+    energy, water, grains
+        Series (samples) of energy (m5 s-2) and volumes (m3) as in a record; NaN where not known.
+
+    Returns
+    -------
+    float
+        The rise over what can be released; NaN if the start has nothing to release.
     """
     energy = energy[np.isfinite(energy)]
     released = energy[0] - at_rest(point, model, half_width, water[0], grains[0])
@@ -20,7 +34,22 @@ def rise(point: Point, model: str, half_width: float, energy, water, grains) -> 
 
 
 def at_rest(point: Point, model: str, half_width: float, water: float, grains: float) -> float:
-    """Return the energy, as records have it, of volumes of water and grains that lie flat in a box."""
+    """Return the energy, as records have it, of volumes of water and grains that lie flat in a box.
+
+    E = g A (r h1 (h1/2 + h2) + h2²/2) on the area A of the box, with the depths h1 and h2 of flat layers.
+
+    Parameters
+    ----------
+    point, model, half_width
+        As in `rise`.
+    water, grains
+        Volumes (m3, on a line m2); NaN for water of a model without it.
+
+    Returns
+    -------
+    float
+        Energy (m5 s-2) over the density of grains.
+    """
     width = 2 * half_width
     area = {"line": width, "quarter": width**2, "plane": width**2}.get(model, math.pi * half_width**2)
     if model == "one-layer" and not _round(point):
@@ -31,6 +60,4 @@ def at_rest(point: Point, model: str, half_width: float, water: float, grains: f
 
 def _round(point: Point) -> bool:
     """Return whether the scene of a point is round."""
-    from subslide import scenes
-
     return scenes.symmetry(point) == "round"

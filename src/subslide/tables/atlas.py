@@ -137,7 +137,17 @@ def text(results: "Results") -> str:
 def references_of(point: Point, family: list[tuple[str, Point]]) -> list[str]:
     """Return the ids of the runs of a column with the default numerics at double precision, the finest grid first.
 
-    family: id and point of each run of the column. Empty unless the finest is at least FINER times as fine as the run.
+    Parameters
+    ----------
+    point
+        The run's.
+    family
+        Id and point of each run of its column.
+
+    Returns
+    -------
+    list of str
+        Empty unless the finest is at least FINER times as fine as the run.
     """
     default = {key: getattr(Point(), key) for key in NUMERICS if key not in ("cells", "model")}
     known = [

@@ -23,13 +23,12 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from subslide import catalogue, exact
 from subslide.fields import FRONT_LABELS
 from subslide.keys import schema
 from subslide.points import Point, options_text, to_dict
 from subslide.study.config import Study
+from subslide.tables import _norms
 
 if TYPE_CHECKING:
     from subslide.results import Results
@@ -86,8 +85,6 @@ REQUIRED = ("standing_wave", "paraboloid one-layer")
 """Keys of EXPECTED without which `subslide verify` fails; so do grains at rest that move."""
 MEASURED = ("x", "h2", "eta", "snapshot_time", "time", "x_front", "dx", "model")
 """Variables of records that the table follows from."""
-GAUSS = ((-math.sqrt(0.6), 5 / 18), (0.0, 8 / 18), (math.sqrt(0.6), 5 / 18))
-"""Places in a cell from -1 to 1 and weights of Gauss's quadrature."""
 
 
 def about() -> str:
@@ -141,7 +138,7 @@ def run_rows(point: Point, record: dict) -> Iterator[dict]:
     about_run |= {key: getattr(point, key) for key in METHOD} | {"model": record["model"]}
     order = expected(point, record["model"])[0]
     for time in times(point, record):
-        for quantity, error in errors_at(answer, point, record, time):
+        for quantity, error in _norms.errors_at(answer, point, record, time):
             plain = quantity in ("h2", "eta")
             row = {"time": time, "quantity": quantity, "error": error}
             yield {**about_run, **row, "expected_order": order if plain else math.nan}
@@ -166,65 +163,6 @@ def times(point: Point, record: dict) -> list[float]:
     if point.t_end is not None:
         instants.append(point.t_end)
     return sorted({time for time in instants if time > 0})
-
-
-def errors_at(answer, point: Point, record: dict, time: float) -> Iterator[tuple[str, float]]:
-    """Give quantity and error of each known answer at one time; NaN if the run ended before."""
-    if hasattr(answer, "stays"):
-        if answer.stays(point):
-            yield "h2_change", _change(point, _profile(record, "h2", time), _profile(record, "h2", 0.0))
-        return
-    known = cell_means(answer, point, record, time)
-    weight = weights(record)
-    for quantity, values in known.items():
-        if not np.isfinite(record[quantity]).any():  # water of a model without water
-            continue
-        size = scale(answer, point, quantity, time, values, weight)
-        if np.isfinite(values).all() and size > 0:
-            solved = _profile(record, quantity, time)
-            yield quantity, float((weight * np.abs(solved - values)).sum() / size)
-    if point.delta > 0 and hasattr(answer, "edge_known") and answer.edge_known(point, time):
-        edge = answer.edge_position(point, time)
-        for label, n in FRONT_LABELS.items():
-            yield f"x_front_{label}", 1 - _front(record, n, time) / edge
-
-
-def cell_means(answer, point: Point, record: dict, time: float) -> dict[str, np.ndarray]:
-    """Return the exact h2 and eta (m) by cell or ring, of Gauss's quadrature with three points."""
-    x, dx = record["x"], float(record["dx"])
-    ring = is_round(record)
-    total, size = {}, 0.0
-    for place, share in GAUSS:
-        spot = x + 0.5 * dx * place
-        share = share * np.abs(spot) if ring else share
-        size = size + share
-        for quantity, values in answer.solution(point, spot, time).items():
-            total[quantity] = total.get(quantity, 0.0) + share * values
-    return {quantity: values / size for quantity, values in total.items()}
-
-
-def is_round(record: dict) -> bool:
-    """Return whether the cells of a profile stand for rings.
-
-    A line alone reaches across the axis with a model that is no plane.
-    """
-    return float(record["x"][0]) > 0 or record["model"] == "plane"
-
-
-def weights(record: dict) -> np.ndarray:
-    """Return the relative sizes of the cells or rings of a profile."""
-    x = record["x"]
-    return np.abs(x) if is_round(record) else np.ones(len(x))
-
-
-def scale(answer, point: Point, quantity: str, time: float, values: np.ndarray, weight: np.ndarray) -> float:
-    """Return what an error is relative to, in the unit of sum(weight * |error|); 0 where nothing is compared."""
-    height = point.a_2 * point.radius
-    if hasattr(answer, "amplitude"):
-        return float(weight.sum()) * answer.amplitude(point, time) * height
-    if point.scene == "dam_break" and quantity == "eta":
-        values = values + (1 + point.a_H) * height
-    return float((weight * np.abs(values)).sum())
 
 
 def judge(family: list[dict]) -> None:
@@ -262,21 +200,3 @@ def _family(point: Point, row: dict) -> str:
     """Return a text that is equal for rows of runs that differ in their cells alone."""
     same = {key: value for key, value in to_dict(point).items() if key != "cells"}
     return json.dumps([same, row["quantity"], row["time"]], sort_keys=True)
-
-
-def _profile(record: dict, quantity: str, time: float) -> np.ndarray:
-    """Return the profile (m) at a time, NaN if the run has none."""
-    shots = record["snapshot_time"]
-    place = int(np.argmin(np.abs(shots - time)))
-    near = abs(shots[place] - time) <= 1e-9 * max(time, 1e-12)
-    return record[quantity][place] if near else np.full(len(record["x"]), math.nan)
-
-
-def _change(point: Point, later: np.ndarray, start: np.ndarray) -> float:
-    """Return the largest change of the depth of grains over H2."""
-    return float(np.max(np.abs(later - start))) / (point.a_2 * point.radius)
-
-
-def _front(record: dict, n: int, time: float) -> float:
-    """Return the front (m) at threshold n and a time, NaN if the run ended before."""
-    return float(np.interp(time, record["time"], record["x_front"][n], right=math.nan))

@@ -104,7 +104,15 @@ def table(results: "Results") -> list[dict]:
 
 
 def problem_rows(problem: Problem, records: dict[str, dict]) -> list[dict]:
-    """Return the rows of one problem from the record of each point by its id."""
+    """Return the rows of one problem.
+
+    Parameters
+    ----------
+    problem
+        The column's points, and those of its truth.
+    records
+        Variables MEASURED of each point, by its id.
+    """
     solved = {point.id: values(point, records[point.id]) for point in problem.points}
     judged = []
     for quantity in QUANTITIES:
