@@ -12,10 +12,11 @@ from reference import PLANE, c_reference, fluxes_like, numba_reference, plane_ed
 from table import rows_of
 from timing import rate_of, ratio, spread, take_turns
 
-from subslide.kernels.viscosity import SCHEMES
-from subslide.models.build import build, needs_general
+from subslide.keys.names import SCHEMES
+from subslide.models.build import build
 from subslide.points import Point
 from subslide.solver import DRY_DEPTH, solve
+from subslide.study.choice import needs_general
 
 END = 0.54
 """Last time of the paper's figures (s)."""

@@ -100,3 +100,6 @@ STATUSES = {
     "step_collapse": "the stable time step became too small to finish",
     "hyperbolicity_lost": "wave speeds became complex and the treatment is to stop",
 }
+
+FINISHED = ("ok", "not_at_rest")
+"""Statuses of runs whose last profile and front mean something."""

@@ -7,8 +7,11 @@ from dataclasses import dataclass
 import numba
 import numpy as np
 
-from subslide.fields import FRONT_THRESHOLDS, STATUSES
+from subslide.fields import FINISHED, FRONT_THRESHOLDS, STATUSES
 from subslide.kernels import clock as k
+from subslide.kernels import measures, samples
+from subslide.kernels.arrays import Track
+from subslide.kernels.measures import Scales
 from subslide.models.build import build
 from subslide.points import Point, paper_times
 from subslide.study.choice import resolve_model
@@ -41,8 +44,9 @@ assert set(ENDED.values()) <= set(STATUSES)
 class Run:
     """What a point's run gave: float64 arrays in SI units, sample s of each series at `time[s]`.
 
-    `x_front` is (thresholds, samples), profiles (snapshots, x), fields (snapshots, y, x) in float32. What a model does
-    not have (water of one layer, the diagonal of a radius) is NaN or None.
+    Series are attributes too, by their names in the naming table: `run.x_front` is (thresholds, samples), the others
+    (samples). Profiles are (snapshots, x), fields (snapshots, y, x) in float32. What a model does not have (water of
+    one layer, the diagonal of a radius) is NaN or None.
     """
 
     point: Point
@@ -50,14 +54,7 @@ class Run:
     dx: float
     x: np.ndarray
     time: np.ndarray
-    x_front: np.ndarray
-    max_abs_eta: np.ndarray
-    max_abs_eta_outside: np.ndarray
-    sediment_volume: np.ndarray
-    water_volume: np.ndarray
-    energy: np.ndarray
-    nonhyperbolic_cells: np.ndarray
-    hyperbolic_margin: np.ndarray
+    series: dict[str, np.ndarray]
     snapshot_time: np.ndarray
     h2: np.ndarray
     eta: np.ndarray
@@ -71,6 +68,13 @@ class Run:
     wall_seconds: float
     time_at_rest: float
     box_half_width: float
+
+    def __getattr__(self, name: str) -> np.ndarray:
+        """Return the series of that name."""
+        series = self.__dict__.get("series", {})
+        if name not in series:
+            raise AttributeError(f"a run has no {name}")
+        return series[name]
 
 
 def solve(point, threads=1, progress=None):
@@ -119,22 +123,21 @@ def attempt(point, model_name, box, watched, progress):
         if outcome != k.REACHED:
             break
     snapshots.append((clock[k.NOW] * time_scale, model.profile(), model.fields() if point.fields else None))
-    series = np.concatenate(chunks)
+    sampled = np.concatenate(chunks)
     status = ENDED.get(outcome, "ok" if point.t_end is not None else "not_at_rest")
-    detail = "" if status == "ok" else describe(status, model, series, time_scale)
-    return make_run(point, model, series, snapshots, status, detail, wall, clock)
+    detail = "" if status == "ok" else describe(status, model, sampled, time_scale)
+    return make_run(point, model, sampled, snapshots, (status, detail), wall, clock)
 
 
 def thresholds(model):
     """Return the front's thresholds in the working precision."""
-    return tuple(model.scene.r.dtype.type(value) for value in FRONT_THRESHOLDS)
+    return tuple(model.settings.r.dtype.type(value) for value in FRONT_THRESHOLDS)
 
 
 def warm_up(model):
     """Compile the time loop (or load it) with a segment of no length, which changes nothing but derived values."""
-    model.advance(
-        thresholds(model), np.array([0.0, 0.0, math.inf, -1.0]), np.empty((2, k.COLUMNS)), np.zeros(2, int)
-    )
+    track = Track(np.array([0.0, 0.0, math.inf, -1.0]), np.empty((2, samples.COLUMNS)), np.zeros(2, np.int64))
+    model.advance(thresholds(model), track)
 
 
 def advance_to(model, clock, chunks, look):
@@ -144,22 +147,21 @@ def advance_to(model, clock, chunks, look):
     """
     wall = 0.0
     while True:
-        samples = np.empty((CHUNK, k.COLUMNS))
-        counters = np.zeros(2, np.int64)
+        track = Track(clock, np.empty((CHUNK, samples.COLUMNS)), np.zeros(2, np.int64))
         started = time.perf_counter()
-        model.advance(thresholds(model), clock, samples, counters)
+        model.advance(thresholds(model), track)
         wall += time.perf_counter() - started
         if chunks:
             chunks[-1] = chunks[-1][:-1]
-        chunks.append(samples[: counters[k.SAMPLES]])
+        chunks.append(track.samples[: track.counters[k.SAMPLES]])
         look(clock[k.NOW])
-        if counters[k.OUTCOME] != k.FULL:
-            return int(counters[k.OUTCOME]), wall
+        if track.counters[k.OUTCOME] != k.FULL:
+            return int(track.counters[k.OUTCOME]), wall
 
 
-def describe(status, model, series, time_scale):
+def describe(status, model, sampled, time_scale):
     """Return one line on a run that did not end well: what, when, after how many steps, and where."""
-    text = f"{STATUSES[status]}; t = {series[-1, k.TIME] * time_scale:.6g} s, step {len(series) - 1}"
+    text = f"{STATUSES[status]}; t = {sampled[-1, samples.TIME] * time_scale:.6g} s, step {len(sampled) - 1}"
     suspect = ""
     if status in ("diverged", "negative_depth", "step_collapse"):
         suspect = model.suspect()
@@ -168,51 +170,56 @@ def describe(status, model, series, time_scale):
     return f"{text}, {suspect}" if suspect else text
 
 
-def make_run(point, model, series, snapshots, status, detail, wall, clock):
-    """Return the `Run` of a finished loop, in SI units."""
-    R, H2 = point.radius, point.a_2 * point.radius
-    time_scale = math.sqrt(R / (point.g * point.a_2))
-    volume = model.copies * H2 * R**model.dimensions
-    lonely = model.scene.layers == 1
-    column = series.T
-    nothing = np.full(len(series), np.nan)
+def series_in_si(model, point, sampled):
+    """Return the series of a run by name, in SI units, from its samples; NaN where the model lacks a layer."""
+    height = point.a_2 * point.radius
+    volume = model.copies * height * point.radius**model.dimensions
+    si = Scales(point.radius, height, point.g, volume, model.copies)
+    column = sampled.T
+    series = {"x_front": column[samples.FRONT : samples.FRONT + samples.FRONTS] * si.length}
+    for name, measured in measures.SERIES.items():
+        known = model.settings.layers >= measured.layers
+        values = column[samples.COLUMN[name]]
+        series[name] = measured.si(values, si) if known else np.full(len(sampled), np.nan)
+    return series
+
+
+def make_run(point, model, sampled, snapshots, ended, wall, clock):
+    """Return the `Run` of a finished loop, in SI units. ended: its status and the detail of it."""
+    height = point.a_2 * point.radius
+    time_scale = math.sqrt(point.radius / (point.g * point.a_2))
     profiles = [profile for _, profile, _ in snapshots]
     whole = [fields for _, _, fields in snapshots]
-    front = column[k.FRONT : k.FRONT + len(FRONT_THRESHOLDS)] * R
-    final = status in ("ok", "not_at_rest")
+    series = series_in_si(model, point, sampled)
+    front = series["x_front"]
+    status, detail = ended
+    final = status in FINISHED
 
     def stack(values, name, kind=np.float64):
         if values[0] is None or name not in values[0]:
             return None
-        return (np.stack([value[name] for value in values]) * H2).astype(kind)
+        return (np.stack([value[name] for value in values]) * height).astype(kind)
 
+    alone = model.settings.layers == 1
+    rested = clock[k.REST_SINCE] >= 0 and final
     return Run(
         point=point,
         model=model.name,
         dx=point.dx,
-        x=model.x * R,
-        time=column[k.TIME] * time_scale,
-        x_front=front,
-        max_abs_eta=nothing if lonely else column[k.ETA] * H2,
-        max_abs_eta_outside=nothing if lonely else column[k.ETA_OUTSIDE] * H2,
-        sediment_volume=column[k.GRAINS] * volume,
-        water_volume=nothing if lonely else column[k.WATER] * volume,
-        energy=column[k.ENERGY] * volume * H2 * point.g,
-        nonhyperbolic_cells=column[k.COMPLEX] * model.copies,
-        hyperbolic_margin=nothing if lonely else column[k.MARGIN],
+        x=model.x * point.radius,
+        time=sampled[:, samples.TIME] * time_scale,
+        series=series,
         snapshot_time=np.array([t for t, _, _ in snapshots]),
         h2=stack(profiles, "h2"),
-        eta=np.full((len(profiles), len(model.x)), np.nan) if lonely else stack(profiles, "eta"),
+        eta=np.full((len(profiles), len(model.x)), np.nan) if alone else stack(profiles, "eta"),
         h2_diagonal=stack(profiles, "h2_diagonal"),
         h2_field=stack(whole, "h2", np.float32),
         eta_field=stack(whole, "eta", np.float32),
         L_f=front[:, -1].copy() if final else np.full(len(FRONT_THRESHOLDS), np.nan),
         status=status,
         status_detail=detail,
-        steps=len(series) - 1,
+        steps=len(sampled) - 1,
         wall_seconds=wall,
-        time_at_rest=float(
-            clock[k.REST_SINCE] * time_scale if clock[k.REST_SINCE] >= 0 and final else np.nan
-        ),
-        box_half_width=model.half_width * R,
+        time_at_rest=float(clock[k.REST_SINCE] * time_scale if rested else np.nan),
+        box_half_width=model.half_width * point.radius,
     )

@@ -29,7 +29,7 @@ def error(dx, order, layers):
         level=2.0,
         layers=layers,
         r=0.0,
-        friction=0.0,
+        m=0.0,
         order=order,
         radial=True,
         walls=(True, False),

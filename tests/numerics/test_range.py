@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from subslide.fields import STATUSES
-from subslide.kernels.viscosity import SCHEMES
+from subslide.keys.names import SCHEMES
 from subslide.points import Point
 from subslide.solver import solve
 

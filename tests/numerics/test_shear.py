@@ -11,7 +11,7 @@ from states import advance, axial, plane
 from test_waves import matrix
 
 from subslide.exact import shear
-from subslide.kernels import clock as k
+from subslide.kernels import samples as columns
 from subslide.kernels import waves
 from subslide.solver import solve
 from subslide.study import config
@@ -78,7 +78,7 @@ def test_the_series_counts_the_cells_whose_matrix_has_complex_eigenvalues(make):
     cells = zip(h1.ravel(), h2.ravel(), shear.ravel(), strict=True)
     lost = sum(np.abs(np.linalg.eigvals(matrix(a, d, b, 0.0, 0.9)).imag).max() > 1e-6 for a, b, d in cells)
     assert 0.1 * h1.size < lost < 0.9 * h1.size
-    assert advance(model, steps=1)[0][0, k.COMPLEX] == lost
+    assert advance(model, steps=1)[0][0, columns.COMPLEX] == lost
 
 
 def run(part, folds, samples=5, **keys):
@@ -155,10 +155,10 @@ def test_the_margin_is_one_at_rest_and_negative_where_speeds_are_complex():
             0.0,
             level=2.0,
             r=0.8,
-            friction=0.0,
+            m=0.0,
             walls=(2, 2),
         )
         samples, _ = advance(model, steps=0)
-        assert samples[0, k.COMPLEX] == cells
-        margin = samples[0, k.MARGIN]
+        assert samples[0, columns.COMPLEX] == cells
+        margin = samples[0, columns.MARGIN]
         assert margin == 1 if factor == 0 else 0 < margin < 1 if factor < 1 else margin < 0

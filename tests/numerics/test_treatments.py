@@ -8,7 +8,8 @@ from states import advance, axial, inner, plane
 
 from subslide.exact.shear import base, critical_shear, growth_rate
 from subslide.kernels import clock as k
-from subslide.kernels.hyperbolicity import TREATMENTS, is_complex
+from subslide.kernels.hyperbolicity import FLAGS as TREATMENTS
+from subslide.kernels.hyperbolicity import is_complex
 from subslide.solver import solve
 from subslide.study import config
 
