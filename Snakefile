@@ -3,7 +3,7 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from subslide import exact, figures, source_hash
+from subslide import catalogue, exact, source_hash
 from subslide.keys.schema import ConfigError
 from subslide.study import batches as ledger
 from subslide.study.config import make_study

@@ -8,12 +8,12 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from subslide import exact, figures
+from subslide import catalogue, exact
 from subslide.points import RUN_KEYS, options_text, to_dict
 from subslide.study.config import make_study, read_study, solved_model
 from subslide.tables import atlas
 
-NAMES = [name for name in figures.names() if name.startswith("stability_")]
+NAMES = [name for name in catalogue.names("figures") if name.startswith("stability_")]
 
 
 class MadeUp:

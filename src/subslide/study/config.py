@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from subslide import figures, scenes
+from subslide import catalogue, scenes
 from subslide.keys import schema
 from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS, Point, from_dict
@@ -235,7 +235,7 @@ def _axis(key: str, value) -> list:
 def _chosen_figures(values: dict, points: list[Point]) -> tuple[str, ...]:
     """Names of the figures of a study: those asked for, or all whose runs it has."""
     chosen = schema.checked("figures", values.get("figures", "auto"))
-    known = figures.names()
+    known = catalogue.names("figures")
     if chosen == "none":
         return ()
     if chosen == "auto":
@@ -253,7 +253,7 @@ def _chosen_figures(values: dict, points: list[Point]) -> tuple[str, ...]:
 
 def _lacking(name: str, points: list[Point]) -> str:
     """First 'key: value' that a figure needs and no point has, or ''."""
-    for key, needed in figures.about(name).needs.items():
+    for key, needed in catalogue.figure(name).needs.items():
         present = {getattr(point, key) for point in points}
         for value in needed:
             if value not in present:
