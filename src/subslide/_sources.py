@@ -5,7 +5,7 @@ import hashlib
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent
-SOLVER = ("kernels", "fields.py")
+SOLVER = ("kernels", "naming.py")
 """Parts whose code is compiled, or is read by code that is."""
 
 DRAWING = ("figures", "drawing.py", "docs.py", "claims", "laboratory.py", "guard.py", "work_precision")

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numba
 import numpy as np
 
-from subslide.fields import FRONT_THRESHOLDS, STATUSES
 from subslide.kernels import clock as k
 from subslide.models.build import build
+from subslide.naming import FRONT_THRESHOLDS, STATUSES
 from subslide.points import Point, paper_times
 from subslide.study.choice import resolve_model
 

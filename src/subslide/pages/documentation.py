@@ -1,6 +1,6 @@
 """Pages of documentation that follow from the code, so that each fact has one place."""
 
-from subslide import fields, scenes
+from subslide import naming, scenes
 from subslide.keys import schema
 from subslide.records import thinning
 from subslide.tables import _convergence as convergence
@@ -85,7 +85,7 @@ does not have. Runs that failed are rows too: see `status`.
 
 RECORDS_TEXT = """# Records
 
-<!-- written by `make docs` from src/subslide/fields.py -->
+<!-- written by `make docs` from src/subslide/naming.py -->
 
 `subslide run` writes one run, a study one file for each batch of runs, in one layout (NetCDF-4, CF-1.11): every
 variable of a run has the dimension `run`, of length 1 for a single run. Runs that are shorter, or lie in a smaller box,
@@ -116,13 +116,13 @@ def pages() -> dict[str, str]:
 
 def variables() -> str:
     """Tables (Markdown) of the statuses and the variables of a record."""
-    lines = [f"- `{name}`: {text}" for name, text in fields.STATUSES.items()]
+    lines = [f"- `{name}`: {text}" for name, text in naming.STATUSES.items()]
     parts = {
-        "Series, a sample each time step": fields.SERIES,
-        "Profiles along the x axis, at each snapshot": fields.PROFILES,
-        "Fields, at each snapshot (`fields: true`, in the plane)": fields.FIELDS_2D,
-        "A value a run": {**fields.PARAMETERS, **fields.SCALARS},
-        "Coordinates": fields.COORDINATES,
+        "Series, a sample each time step": naming.SERIES,
+        "Profiles along the x axis, at each snapshot": naming.PROFILES,
+        "Fields, at each snapshot (`fields: true`, in the plane)": naming.FIELDS_2D,
+        "A value a run": {**naming.PARAMETERS, **naming.SCALARS},
+        "Coordinates": naming.COORDINATES,
     }
     for title, table in parts.items():
         lines += ["", f"## {title}", "", "| name | dimensions | unit | meaning |", "|---|---|---|---|"]
@@ -183,7 +183,7 @@ def columns() -> str:
     quantities = {**{f"x_front_{t}": ("m", f"x_front at the {t[:-2]} % front") for t in tables.THRESHOLDS}}
     quantities.update(
         (name, (field.unit if field.unit != "1" else "", field.long_name))
-        for name, field in fields.SERIES.items()
+        for name, field in naming.SERIES.items()
         if name != "x_front"
     )
     return "\n".join(

@@ -7,7 +7,7 @@ import copy
 
 import numpy as np
 
-from subslide import fields
+from subslide import naming
 
 LONGEST, HEAD = 10_000, 4_096
 """Most samples that a record keeps of a run, and how many of these are the run's first, one a step."""
@@ -22,10 +22,10 @@ def thinned(run):
     count = len(run.time)
     if count <= LONGEST:
         return run
-    series = np.vstack([np.atleast_2d(getattr(run, name)) for name in fields.SERIES])
+    series = np.vstack([np.atleast_2d(getattr(run, name)) for name in naming.SERIES])
     kept = places(np.nan_to_num(series, posinf=np.inf, neginf=-np.inf))
     short = copy.copy(run)
-    for name in ("time", *fields.SERIES):
+    for name in ("time", *naming.SERIES):
         setattr(short, name, getattr(run, name)[..., kept])
     return short
 

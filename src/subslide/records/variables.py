@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 import subslide
-from subslide import fields, points
+from subslide import naming, points
 from subslide.keys import schema
 from subslide.records import thinning
 from subslide.study.choice import model_reason
@@ -45,7 +45,7 @@ def variables(runs: list) -> dict[str, Variable]:
     runs = [thinning.thinned(run) for run in runs]
     first, x = _shared_grid(runs)
     found = {
-        "front_threshold": _variable("front_threshold", np.array(fields.FRONT_THRESHOLDS)),
+        "front_threshold": _variable("front_threshold", np.array(naming.FRONT_THRESHOLDS)),
         "x": _variable("x", x),
     }
     found["x"].attrs["axis"] = "X"
@@ -64,10 +64,10 @@ def variables(runs: list) -> dict[str, Variable]:
     for name in ("status", "status_detail"):
         text = {"status": "how the run ended", "status_detail": "what ended the run, in words"}[name]
         found[name] = Variable(("run",), _text([getattr(run, name) for run in runs]), {"long_name": text})
-    found["status"].attrs["comment"] = "; ".join(f"{k}: {v}" for k, v in fields.STATUSES.items())
-    for name in fields.SCALARS:
+    found["status"].attrs["comment"] = "; ".join(f"{k}: {v}" for k, v in naming.STATUSES.items())
+    for name in naming.SCALARS:
         found[name] = _variable(name, _column(runs, name))
-    for name in ("time", *fields.SERIES):
+    for name in ("time", *naming.SERIES):
         found[name] = _variable(name, _padded([getattr(run, name) for run in runs]))
     found["snapshot_time"] = _variable("snapshot_time", _padded([run.snapshot_time for run in runs]))
     found.update(_profiles(runs, first, len(x)))
@@ -76,7 +76,7 @@ def variables(runs: list) -> dict[str, Variable]:
             times = {"step": "time", "snapshot": "snapshot_time"}
             beside = [times[dim] for dim in variable.dims if times.get(dim, name) != name]
             variable.attrs["coordinates"] = " ".join(["id", *beside])
-    if any(name in found for name in fields.FIELDS_2D):
+    if any(name in found for name in naming.FIELDS_2D):
         found["y"] = _variable("y", x)
         found["y"].attrs["axis"] = "Y"
     return found
@@ -126,12 +126,12 @@ def _profiles(runs: list, first: int, cells: int) -> dict[str, Variable]:
     """Profiles and fields, by name, on the shared grid; those that no run has are left out."""
     found = {}
     snapshots = max(len(run.snapshot_time) for run in runs)
-    for name, field in {**fields.PROFILES, **fields.FIELDS_2D}.items():
+    for name, field in {**naming.PROFILES, **naming.FIELDS_2D}.items():
         kept = [getattr(run, name) for run in runs]
         if all(values is None for values in kept):
             continue
         axes = len(field.dims) - 2
-        dtype = np.float32 if name in fields.FIELDS_2D else np.float64
+        dtype = np.float32 if name in naming.FIELDS_2D else np.float64
         joined = np.full((len(runs), snapshots, *[cells] * axes), np.nan, dtype)
         for n, (run, values) in enumerate(zip(runs, kept, strict=True)):
             if values is not None:
@@ -144,12 +144,12 @@ def _profiles(runs: list, first: int, cells: int) -> dict[str, Variable]:
 def _variable(name: str, values: np.ndarray) -> Variable:
     """Variable with the dimensions, unit and long name of the naming table."""
     tables = (
-        fields.PARAMETERS,
-        fields.SERIES,
-        fields.PROFILES,
-        fields.FIELDS_2D,
-        fields.SCALARS,
-        fields.COORDINATES,
+        naming.PARAMETERS,
+        naming.SERIES,
+        naming.PROFILES,
+        naming.FIELDS_2D,
+        naming.SCALARS,
+        naming.COORDINATES,
     )
     field = next(table[name] for table in tables if name in table)
     attrs = {"units": field.unit, "long_name": field.long_name}
@@ -160,7 +160,7 @@ def _variable(name: str, values: np.ndarray) -> Variable:
 
 def _parameter(key: str, values: list) -> Variable:
     """Variable (run) of a key of the configuration, described as the schema does."""
-    if key in fields.PARAMETERS:
+    if key in naming.PARAMETERS:
         return _variable(key, np.array(values, float))
     about = schema.properties()[key]
     attrs = {"long_name": about["description"]}

@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from subslide import fields
+from subslide import naming
 from subslide.files import replacing, write_text
 from subslide.keys import schema
 from subslide.points import PAPER_BOX, RUN_KEYS, Point, friction_number, from_dict, options_text
@@ -35,7 +35,7 @@ COLUMNS = {
     "m": ("", "tan(delta)/a_2: with a_H and r, all that the scaled answer depends on"),
     "resolved_model": ("", "geometry that was solved; `model` is what was asked for"),
     "dx": ("m", "cell size"),
-    "status": ("", "how the run ended: " + "; ".join(f"`{k}`: {v}" for k, v in fields.STATUSES.items())),
+    "status": ("", "how the run ended: " + "; ".join(f"`{k}`: {v}" for k, v in naming.STATUSES.items())),
     "status_detail": ("", "what ended the run, in words"),
     "steps": ("", "number of time steps"),
     "time_at_rest": (
@@ -78,7 +78,7 @@ TIMING = {
     "cells_in_box": ("", "cells of the box at the end"),
     "cell_updates_per_second": ("s-1", "cells times steps over wall time"),
 }
-QUANTITIES = (*(f"x_front_{t}" for t in THRESHOLDS), *(name for name in fields.SERIES if name != "x_front"))
+QUANTITIES = (*(f"x_front_{t}" for t in THRESHOLDS), *(name for name in naming.SERIES if name != "x_front"))
 
 
 def write(folder: Path) -> list[Path]:
