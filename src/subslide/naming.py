@@ -1,6 +1,7 @@
 """The naming table: every quantity of a record, its symbol, dimensions, unit and meaning.
 
-Records, tables, figures and documentation take names and units from here and from nowhere else.
+Records, tables, figures and documentation take names and units from here and from nowhere else; those of the keys of a
+run stand in `subslide.keys.entries`.
 """
 
 from typing import NamedTuple
@@ -20,14 +21,6 @@ class Name(NamedTuple):
 
 STEP = ("run", "step")
 PROFILE = ("run", "snapshot", "x")
-
-PARAMETERS = {
-    "a_H": Name("a_H", ("run",), "1", "water depth above the column over the column's height, H1/H2"),
-    "a_2": Name("a_2", ("run",), "1", "aspect ratio of the column, H2/R"),
-    "r": Name("r", ("run",), "1", "density of water over density of grains"),
-    "delta": Name("δ", ("run",), "degree", "Coulomb friction angle"),
-    "radius": Name("R", ("run",), "m", "initial radius of the column"),
-}
 
 SERIES = {
     "x_front": Name(
@@ -90,6 +83,9 @@ COORDINATES = {
     "time": Name("t", STEP, "s", "elapsed time since release"),
     "snapshot_time": Name("t", ("run", "snapshot"), "s", "elapsed time of the profile"),
 }
+
+NAMES = {**SERIES, **PROFILES, **FIELDS_2D, **SCALARS, **COORDINATES}
+"""Every quantity of a record by name, but for the keys of its runs, which `subslide.keys` describes."""
 
 STATUSES = {
     "ok": "the run reached its end",

@@ -10,8 +10,8 @@ import numpy as np
 from subslide.kernels import clock as k
 from subslide.models.build import build
 from subslide.naming import FRONT_THRESHOLDS, STATUSES
-from subslide.points import Point, paper_times
-from subslide.study.choice import resolve_model
+from subslide.points import Point
+from subslide.study import choice
 
 DRY_DEPTH = 1e-6
 """Over H2: below it a layer counts as dry (HLL instead of IFCP) and velocities are cut off smoothly."""
@@ -41,12 +41,15 @@ assert set(ENDED.values()) <= set(STATUSES)
 class Run:
     """What a point's run gave: float64 arrays in SI units, sample s of each series at `time[s]`.
 
+    `model` is the one that was solved, `model_reason` why, in words.
+
     `x_front` is (thresholds, samples), profiles (snapshots, x), fields (snapshots, y, x) in float32. What a model does
     not have (water of one layer, the diagonal of a radius) is NaN or None.
     """
 
     point: Point
     model: str
+    model_reason: str
     dx: float
     x: np.ndarray
     time: np.ndarray
@@ -79,30 +82,22 @@ def solve(point, threads=1, progress=None):
     threads: cores for one plane run (no result depends on it). progress: called with the fraction of the run's time.
     """
     numba.set_num_threads(max(1, min(threads, numba.config.NUMBA_NUM_THREADS)))
-    half_cells = -(-point.cells // 2)
-    box = half_cells
+    box = point.half_cells
     while True:
-        run = attempt(point, resolve_model(point), box, half_cells, progress)
+        run = attempt(point, box, progress)
         grown = math.ceil(box * GROWTH)
-        if run.status != "left_domain" or grown > LARGEST_BOX * half_cells:
+        if run.status != "left_domain" or grown > LARGEST_BOX * point.half_cells:
             return run
         box = grown
 
 
-def snapshot_times(point):
-    """Return the times (s) of the point's snapshots, in order."""
-    if point.snapshot_times is None:
-        return (0.0, *paper_times(point.radius))
-    return tuple(sorted(point.snapshot_times))
-
-
-def attempt(point, model_name, box, watched, progress):
-    """Return the run in a box of `box` cells from the axis, its surface watched within `watched` cells."""
-    time_scale = math.sqrt(point.radius / (point.g * point.a_2))
+def attempt(point, box, progress):
+    """Return the run in a box of `box` cells from the axis, its surface watched within the smallest box."""
+    time_scale = point.time_scale
     cap = REST_CAP / math.sqrt(1.0 - point.r) * time_scale
     end = cap if point.t_end is None else point.t_end
-    times = [t for t in snapshot_times(point) if t <= end]
-    model = build(point, model_name, box, watched, DRY_DEPTH)
+    times = [t for t in point.profile_times if t <= end]
+    model = build(point, box, point.half_cells, DRY_DEPTH)
     clock = np.array([0.0, 0.0, math.inf, -1.0])
     if point.t_end is None:
         clock[k.REST_FROM] = max(times[-1] / time_scale if times else 0.0, np.nextafter(0.0, 1.0))
@@ -170,8 +165,7 @@ def describe(status, model, series, time_scale):
 
 def make_run(point, model, series, snapshots, status, detail, wall, clock):
     """Return the `Run` of a finished loop, in SI units."""
-    R, H2 = point.radius, point.a_2 * point.radius
-    time_scale = math.sqrt(R / (point.g * point.a_2))
+    R, H2, time_scale = point.radius, point.column_height, point.time_scale
     volume = model.copies * H2 * R**model.dimensions
     lonely = model.scene.layers == 1
     column = series.T
@@ -189,6 +183,7 @@ def make_run(point, model, series, snapshots, status, detail, wall, clock):
     return Run(
         point=point,
         model=model.name,
+        model_reason=choice.of(point).reason,
         dx=point.dx,
         x=model.x * R,
         time=column[k.TIME] * time_scale,

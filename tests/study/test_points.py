@@ -61,8 +61,8 @@ def test_similar_points_share_a_key():
         Point(a_2=1.0, delta=30.0),
         Point(a_2=0.56, delta=math.degrees(math.atan(0.56 * math.tan(math.pi / 6)))),
     )
-    assert points.similarity_key(first)[:2] == points.similarity_key(second)[:2]
-    assert points.similarity_key(first)[2] == pytest.approx(points.similarity_key(second)[2], rel=1e-6)
+    assert first.similarity_key[:2] == second.similarity_key[:2]
+    assert first.similarity_key[2] == pytest.approx(second.similarity_key[2], rel=1e-6)
 
 
 def test_cell_size_follows_the_radius():

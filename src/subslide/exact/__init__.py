@@ -5,13 +5,13 @@ exact solution is known; or `stays(point)` returns whether the grains must not m
 scaled variables unless they take g: lengths over R, depths over H2, speeds over sqrt(g H2).
 """
 
-import math
 from importlib import import_module
-from pathlib import Path
 
 import numpy as np
 
-NAMES = tuple(sorted(path.stem for path in Path(__file__).parent.glob("[a-z]*.py")))
+from subslide import catalogue
+
+NAMES = tuple(catalogue.names("exact"))
 """Scenes with an exact solution."""
 
 
@@ -22,25 +22,14 @@ def load(name):
 
 def scaled(point, x, time):
     """Return x (m) and time (s) in scaled variables."""
-    return np.asarray(x, float) / point.radius, time / math.sqrt(point.radius / (point.g * point.a_2))
+    return np.asarray(x, float) / point.radius, time / point.time_scale
 
 
 def in_metres(point, h2, eta):
     """Return the profiles of scaled h2 and eta in m."""
-    height = point.a_2 * point.radius
-    return {"h2": h2 * height, "eta": eta * height}
-
-
-def half_box(point):
-    """Return the scaled half-width of the smallest box."""
-    return -(-point.cells // 2) * (0.6 / point.cells / 0.0705)
+    return {"h2": h2 * point.column_height, "eta": eta * point.column_height}
 
 
 def frictionless(point):
     """Return whether no friction law acts on the grains."""
     return point.friction == "coulomb" and point.delta == 0
-
-
-def friction_number(point):
-    """Return the scaled deceleration by friction of grains alone, tan(delta) / a_2."""
-    return math.tan(math.radians(point.delta)) / point.a_2

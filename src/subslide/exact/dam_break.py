@@ -9,10 +9,9 @@ import math
 
 import numpy as np
 
-from subslide.exact import friction_number, frictionless, half_box, in_metres, scaled
-
-DEFAULTS = {"layer": "grains", "downstream": 0.0}
-"""Options of the scene that a point leaves out."""
+from subslide.exact import frictionless, in_metres, scaled
+from subslide.scenes import options
+from subslide.scenes.dam_break import step
 
 
 def middle(left, right, g=1.0):
@@ -35,7 +34,7 @@ def depth(x, t, left=1.0, right=0.0, g=1.0):
     """Return the depth at x and t of a dam that parts depths left and right, without friction."""
     x = np.asarray(x, float)
     if t <= 0:
-        return np.where(x < 0, left, right)
+        return step(x, left, right)
     c = math.sqrt(g * left)
     fan = (2 * c - np.clip(x / t, -c, 2 * c)) ** 2 / (9 * g)
     if right == 0:
@@ -58,16 +57,19 @@ def edge(t, friction, h0=1.0):
 def edge_position(point, time):
     """Return where the grains of a dry dam break end (m) at the time (s), were the depth traced to 0; grains alone."""
     _, t = scaled(point, 0.0, time)
-    return edge(t, friction_number(point)) * point.radius
+    return edge(t, point.friction_number) * point.radius
 
 
 def edge_known(point, time):
     """Return whether `edge_position` holds at the time (s): grains at r = 0 on a dry bed, within the box."""
-    own = {**DEFAULTS, **dict(point.scene_options)}
+    chosen = options(point)
     lone = (
-        own["layer"] == "grains" and own["downstream"] == 0 and point.r == 0 and point.friction == "coulomb"
+        chosen["layer"] == "grains"
+        and chosen["downstream"] == 0
+        and point.r == 0
+        and point.friction == "coulomb"
     )
-    return lone and edge_position(point, time) < half_box(point) * point.radius
+    return lone and edge_position(point, time) < point.half_box * point.radius
 
 
 def solution(point, x, time):
@@ -75,14 +77,14 @@ def solution(point, x, time):
 
     Known until a wave reaches the end of the box.
     """
-    own = {**DEFAULTS, **dict(point.scene_options)}
-    layer, downstream = own["layer"], own["downstream"]
+    chosen = options(point)
+    layer, downstream = chosen["layer"], chosen["downstream"]
     s, t = scaled(point, x, time)
     nothing = np.full(s.shape, np.nan)
-    left = 1.0 if layer == "grains" else 1.0 + point.a_H
+    left = 1.0 if layer == "grains" else point.scaled_level
     right = downstream * left
     fastest = 2 * math.sqrt(left) if right == 0 else max(middle(left, right)[2], math.sqrt(left))
-    if fastest * t > half_box(point):
+    if fastest * t > point.half_box:
         return in_metres(point, nothing, nothing)
     h = depth(s, t, left, right)
     if layer == "water":

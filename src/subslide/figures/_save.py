@@ -5,7 +5,7 @@ from pathlib import Path
 
 from subslide import catalogue
 from subslide.files import replacing
-from subslide.keys import schema
+from subslide.keys import words
 from subslide.keys.schema import ConfigError
 
 
@@ -16,7 +16,7 @@ def save(name: str, results: Path, output: Path) -> list[Path]:
     """
     known = catalogue.names("figures")
     if name not in known:
-        hint = schema.closest(name, known)
+        hint = words.closest(name, known)
         raise ConfigError(f"figure: {name} is not allowed; allowed: {', '.join(known) or 'none'}{hint}")
     if not (results / "tables" / "runs.csv").is_file():
         raise ConfigError(

@@ -15,7 +15,7 @@ from subslide.kernels.waves import SPEEDS
 from subslide.models.axial import Axial
 from subslide.models.grid import make_grid
 from subslide.models.plane import Plane
-from subslide.study.choice import geometry, needs_general
+from subslide.study import choice
 
 
 def scaled(point, layers, dx, dry_depth):
@@ -27,7 +27,7 @@ def scaled(point, layers, dx, dry_depth):
         scheme=SCHEMES[point.scheme],
         order=point.order,
         r=real(point.r),
-        friction=real(mu / point.a_2),
+        friction=real(point.friction_number),
         dx=real(dx),
         cfl=real(point.cfl),
         dry_depth=real(dry_depth),
@@ -35,29 +35,41 @@ def scaled(point, layers, dx, dry_depth):
         lanes=64 // real().itemsize,
         speeds=SPEEDS[point.wave_speeds],
         law=LAWS[point.friction],
-        turbulence=real(point.g / (point.xi * point.a_2)),
+        turbulence=real(point.turbulence),
         friction_rise=real((math.tan(math.radians(point.delta_2)) - mu) / point.a_2),
-        depths=real(point.a_2 * point.radius / point.pouliquen_length),
+        depths=real(point.column_height / point.pouliquen_length),
         treatment=TREATMENTS[point.treatment],
         as_printed=AS_PRINTED[point.as_printed],
-        printed_bound=real((1 - point.r) * mu * math.sqrt(point.g / (point.a_2 * point.radius))),
+        printed_bound=real((1 - point.r) * mu * math.sqrt(point.g / point.column_height)),
         viscous_friction=int(point.friction_in_viscosity),
     )
-    return GeneralScene(*scene, general=1) if needs_general(point) else scene
+    return GeneralScene(*scene, general=1) if choice.of(point).general else scene
 
 
-def build(point, model, box, watched, dry_depth):
-    """Return the model in its initial state.
+def build(point, box, watched, dry_depth):
+    """Return the model of a point in its initial state.
 
-    box, watched: cells from the axis to the end of the box and of the region where the surface is watched.
+    Parameters
+    ----------
+    point : Point
+        The run; how it is solved follows from it (`study.choice`).
+    box, watched : int
+        Cells from the axis to the end of the box, and of the region where the surface is watched.
+    dry_depth : float
+        Depth over H2 below which a layer counts as dry.
+
+    Returns
+    -------
+    Axial or Plane
     """
     real = np.dtype(point.dtype).type
-    dx = 0.6 / point.cells / 0.0705
-    grid = make_grid(geometry(model, point), dx, box)
+    model, geometry, *_ = choice.of(point)
+    dx = point.scaled_dx
+    grid = make_grid(geometry, dx, box)
     state = scenes.load(point.scene).initial(grid, point)
     alone = model == "one-layer"
     scene = scaled(point, 1 if alone else 2, dx, dry_depth)
-    level = real(1.0 + point.a_H)
+    level = real(point.scaled_level)
     axial = grid.geometry in ("radius", "line")
     shape = (len(grid.centres),) * (1 if axial else 2)
     flat = np.ptp(state.h1 + state.h2) == 0

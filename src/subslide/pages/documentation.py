@@ -1,7 +1,7 @@
 """Pages of documentation that follow from the code, so that each fact has one place."""
 
 from subslide import naming, scenes
-from subslide.keys import schema
+from subslide.keys import schema, words
 from subslide.records import thinning
 from subslide.tables import _convergence as convergence
 from subslide.tables import atlas, bands, cheapest, claims, errors, work_precision
@@ -12,7 +12,7 @@ CONFIG_PAGE, TABLES_PAGE, RECORDS_PAGE = "config/README.md", "docs/tables.md", "
 
 CONFIG_TEXT = """# Studies
 
-<!-- written by `make docs` from src/subslide/config.schema.json and src/subslide/scenes -->
+<!-- written by `make docs` from src/subslide/keys/entries.py and src/subslide/scenes -->
 
 One YAML file is one study. Run it with
 
@@ -121,7 +121,7 @@ def variables() -> str:
         "Series, a sample each time step": naming.SERIES,
         "Profiles along the x axis, at each snapshot": naming.PROFILES,
         "Fields, at each snapshot (`fields: true`, in the plane)": naming.FIELDS_2D,
-        "A value a run": {**naming.PARAMETERS, **naming.SCALARS},
+        "A value a run": naming.SCALARS,
         "Coordinates": naming.COORDINATES,
     }
     for title, table in parts.items():
@@ -137,9 +137,9 @@ def keys() -> str:
     """Table (Markdown) of all keys of a study."""
     rows = ["| key | meaning | unit | default | allowed | axis |", "|---|---|---|---|---|---|"]
     for key, about in schema.properties().items():
-        default = schema.show(about["default"]) if "default" in about else "needed"
+        default = words.show(about["default"]) if "default" in about else "needed"
         axis = "yes" if schema.is_axis(key) else ""
-        entries = (f"`{key}`", about["description"], schema.unit(key), default, schema.allowed(key), axis)
+        entries = (f"`{key}`", about["description"], words.unit(key), default, words.allowed(key), axis)
         rows.append("| " + " | ".join(entries) + " |")
     return "\n".join(rows) + "\n"
 
@@ -166,13 +166,13 @@ def _scene(name: str) -> str:
     if module.OPTIONS:
         lines += ["| option | meaning | unit | default | allowed |", "|---|---|---|---|---|"]
     for option, about in module.OPTIONS.items():
-        default = schema.show(about["default"]) if "default" in about else "needed"
+        default = words.show(about["default"]) if "default" in about else "needed"
         entries = (
             f"`{option}`",
             about["description"],
-            schema.unit_of(about),
+            words.unit_of(about),
             default,
-            schema.range_of(about),
+            words.range_of(about),
         )
         lines.append("| " + " | ".join(entries) + " |")
     return "\n".join(lines) + ("\n" if module.OPTIONS else "")

@@ -3,23 +3,24 @@
 A scene module, found by listing this folder, has
 
 - `OPTIONS`: JSON schema of each option of the scene by name, with its description and default;
-- `symmetry(point)`: "round", "line", "quarter" (mirrors on both axes) or "none": see `models.choice`;
+- `symmetry(point)`: "round", "line", "quarter" (mirrors on both axes) or "none": see `study.choice`;
 - `initial(grid, point)`: the `State`;
-- if need be `check(point)`, which raises a `SceneError` where the scene makes no sense with the rest of a point;
-- if need be `complete(options)`, which returns checked options with what follows from them filled in.
+- if need be `check(point)`, which raises a ConfigError where the scene makes no sense with the rest of a point;
+- if need be `complete(options)`, which returns checked options with what follows from them filled in;
+- the formulas that its state needs. Those that judge how it goes on are in `exact`, under the scene's name.
 """
 
 from importlib import import_module
-from pathlib import Path
-from typing import NamedTuple
+from types import ModuleType
+from typing import Any, NamedTuple
 
 import numpy as np
 
-NAMES = tuple(sorted(path.stem for path in Path(__file__).parent.glob("[a-z]*.py")))
+from subslide import catalogue
+from subslide.keys.schema import ConfigError
+from subslide.points import Point
 
-
-class SceneError(ValueError):
-    """A scene that does not go with the rest of its point: one line that names key, value and what is allowed."""
+NAMES = tuple(catalogue.names("scenes"))
 
 
 class State(NamedTuple):
@@ -33,46 +34,48 @@ class State(NamedTuple):
     v2: np.ndarray | float = 0.0
 
 
-def load(name):
+def load(name: str) -> ModuleType:
     """Return the scene module of that name."""
     return import_module(f"{__name__}.{name}")
 
 
-def options(point):
-    """Return the scene's options by name: the point's own, and the defaults of the others."""
-    defaults = {
-        name: about["default"] for name, about in load(point.scene).OPTIONS.items() if "default" in about
-    }
-    return {**defaults, **dict(point.scene_options)}
+def defaults(name: str) -> dict[str, Any]:
+    """Return the options of a scene by name that have a default, with it."""
+    return {option: about["default"] for option, about in load(name).OPTIONS.items() if "default" in about}
 
 
-def symmetry(point):
+def options(point: Point) -> dict[str, Any]:
+    """Return the options of a point's scene by name: those it states, and the defaults of the others."""
+    return {**defaults(point.scene), **dict(point.scene_options)}
+
+
+def symmetry(point: Point) -> str:
     """Return the symmetry of the point's scene: "round", "line", "quarter" or "none"."""
     return load(point.scene).symmetry(point)
 
 
-def check(point):
-    """Raise a `SceneError` if the point's scene makes no sense with the rest of the point."""
+def check(point: Point) -> None:
+    """Raise a ConfigError if the point's scene makes no sense with the rest of the point."""
     judge = getattr(load(point.scene), "check", None)
     if judge:
         judge(point)
 
 
-def check_walls(point):
-    """Raise a `SceneError` unless the box of a scene whose layers reach its edge has walls."""
+def check_walls(point: Point) -> None:
+    """Raise a ConfigError unless the box of a scene whose layers reach its edge has walls."""
     if point.boundary != "wall":
-        raise SceneError(
+        raise ConfigError(
             f"boundary: {point.boundary} is not allowed with scene: {point.scene}, whose layers reach the edge of the"
             " box; allowed: only wall"
         )
 
 
-def level_off(h2, level):
+def level_off(h2: np.ndarray, level: float) -> tuple[np.ndarray, np.ndarray]:
     """Return (h1, h2) whose sum is `level` to the bit in the precision of `h2`."""
     h1 = level - h2
     return h1, level - h1
 
 
-def still_water(h2, level):
+def still_water(h2: np.ndarray, level: float) -> State:
     """Return the state at rest of grains `h2` under a flat surface at `level`."""
     return State(*level_off(h2, level))

@@ -17,7 +17,7 @@ def initial(grid, point):
     """Return the column at rest under still water (alone for `one-layer`)."""
     lone = grid.geometry == "radius"
     h2 = radial_depth(grid.edges) if lone else over_plane(grid, quadrant_depth)
-    return still_water(h2, 1.0 + point.a_H)
+    return still_water(h2, point.scaled_level)
 
 
 def radial_depth(edges):

@@ -8,8 +8,8 @@ import math
 
 import numpy as np
 
-from subslide.exact import friction_number
-from subslide.scenes import SceneError, options, still_water
+from subslide.keys.schema import ConfigError
+from subslide.scenes import options, still_water
 from subslide.scenes._cells import means, over_plane
 
 OPTIONS = {
@@ -34,38 +34,38 @@ OPTIONS = {
 
 def symmetry(point):
     """Return the scene's symmetry."""
-    own = options(point)
-    if own["shape"] == "cone":
+    chosen = options(point)
+    if chosen["shape"] == "cone":
         return "round"
-    return "quarter" if own["angle"] % 45 == 0 else "none"
+    return "quarter" if chosen["angle"] % 45 == 0 else "none"
 
 
 def check(point):
-    """Raise a `SceneError` without friction, which no pile can rest on."""
+    """Raise a ConfigError without friction, which no pile can rest on."""
     if point.delta == 0:
-        raise SceneError(
+        raise ConfigError(
             "delta: 0 is not allowed with scene: pile, whose slope is by tan(delta); allowed: above 0"
         )
 
 
 def initial(grid, point):
     """Return the pile at rest under still water; cells hold the mean depth, whose slope is never the steeper."""
-    own = options(point)
-    slope = own["steepness"] * friction_number(point)
+    chosen = options(point)
+    slope = chosen["steepness"] * point.friction_number
     if grid.geometry == "radius":
         h2 = cone_rings(grid.edges, slope)
-    elif own["shape"] == "cone":
+    elif chosen["shape"] == "cone":
         h2 = over_plane(
             grid, lambda e: means(lambda x, y: np.maximum(0.0, 1.0 - slope * np.hypot(x, y)), e, e)
         )
     else:
-        shape = pyramid(slope, own["angle"])
+        shape = pyramid(slope, chosen["angle"])
         if symmetry(point) == "quarter":
             h2 = over_plane(grid, lambda e: means(shape, e, e))
         else:
             h2 = means(shape, grid.edges, grid.edges)
             h2 = 0.5 * (h2 + h2[::-1, ::-1])  # half a turn changes no bit
-    return still_water(h2, 1.0 + point.a_H)
+    return still_water(h2, point.scaled_level)
 
 
 def cone_rings(edges, slope):

@@ -6,7 +6,6 @@ The box needs `boundary: wall`.
 
 import numpy as np
 
-from subslide.exact.slide import DEFAULTS
 from subslide.scenes import check_walls, options, still_water
 
 OPTIONS = {
@@ -15,7 +14,7 @@ OPTIONS = {
         "type": "number",
         "minimum": 0,
         "maximum": 10,
-        "default": DEFAULTS["speed"],
+        "default": 1.0,
     },
 }
 
@@ -26,10 +25,10 @@ def symmetry(point):
 
 
 def check(point):
-    """Raise a `SceneError` unless the layer ends at walls."""
+    """Raise a ConfigError unless the layer ends at walls."""
     check_walls(point)
 
 
 def initial(grid, point):
     """Return the sliding layer under still water."""
-    return still_water(np.ones(len(grid.centres)), 1.0 + point.a_H)._replace(u2=options(point)["speed"])
+    return still_water(np.ones(len(grid.centres)), point.scaled_level)._replace(u2=options(point)["speed"])

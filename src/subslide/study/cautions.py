@@ -1,13 +1,14 @@
 """Regions of parameters and numerics that the stability atlas found unsafe: a run in one says so once, on stderr.
 
-Each region is earned: tests/study/test_guard.py solves its `example` and shows that it fails, gains energy or misses
+Each region is earned: tests/study/test_cautions.py solves its `example` and shows that it fails, gains energy or misses
 the answer, where the same run with what the region suggests does not. Imports no kernels.
 """
 
 from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
-from subslide.points import Point, friction_number
+from subslide import scenes
+from subslide.points import Point
 
 
 class Region(NamedTuple):
@@ -43,13 +44,13 @@ def _under_film(point: Point) -> bool:
         and point.model != "one-layer"
         and point.quantities == "all"
         and point.a_H < FILM
-        and HELD[0] <= friction_number(point) <= HELD[1]
+        and HELD[0] <= point.friction_number <= HELD[1]
         and point.r < 0.9
     )
 
 
 def _far(point: Point) -> bool:
-    return point.t_end is None and point.friction == "coulomb" and friction_number(point) < LEAST_FRICTION
+    return point.t_end is None and point.friction == "coulomb" and point.friction_number < LEAST_FRICTION
 
 
 def _floating(point: Point) -> bool:
@@ -59,18 +60,13 @@ def _floating(point: Point) -> bool:
 def _standing_jump(point: Point) -> bool:
     if point.scene != "dam_break" or point.order != 1 or point.scheme not in ("ifcp", "roe"):
         return False
-    return _option(point, "downstream") == 0
+    return scenes.options(point)["downstream"] == 0
 
 
 def _sliding(point: Point) -> bool:
-    return point.scene == "shear" and point.treatment in ("real", "hll") and _option(point, "shear") > 1
-
-
-def _option(point: Point, name: str):
-    """Option of a point's scene, or the default of its exact solution."""
-    from subslide import exact
-
-    return {**exact.load(point.scene).DEFAULTS, **dict(point.scene_options)}[name]
+    return (
+        point.scene == "shear" and point.treatment in ("real", "hll") and scenes.options(point)["shear"] > 1
+    )
 
 
 REGIONS = (

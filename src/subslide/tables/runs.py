@@ -15,8 +15,8 @@ import xarray as xr
 
 from subslide import naming
 from subslide.files import replacing, write_text
-from subslide.keys import schema
-from subslide.points import PAPER_BOX, RUN_KEYS, Point, friction_number, from_dict, options_text
+from subslide.keys import schema, words
+from subslide.points import PAPER_BOX, RUN_KEYS, Point, from_dict, options_text
 from subslide.results import Results, trimmed
 from subslide.study.config import COARSENING
 from subslide.tables import bands
@@ -28,7 +28,7 @@ COLUMNS = {
     "id": ("", "name of the run; depends on its values alone"),
     "numerics": ("", "named set of numerics that the study asked for"),
     **{
-        key: (schema.unit(key), schema.properties()[key]["description"])
+        key: (words.unit(key), schema.properties()[key]["description"])
         for key in RUN_KEYS
         if key != "snapshot_times"
     },
@@ -136,7 +136,7 @@ def run_row(row: dict, run: xr.Dataset) -> dict:
     point = _point(row)
     found = {key: row[key] for key in ("id", "numerics", *RUN_KEYS) if key != "snapshot_times"}
     found["scene_options"] = options_text(point)
-    found.update(m=friction_number(point), resolved_model=str(run["model"].values))
+    found.update(m=point.friction_number, resolved_model=str(run["model"].values))
     for name in ("dx", "steps", "time_at_rest", "box_half_width", "status", "status_detail"):
         found[name] = run[name].item()
     for label, n in THRESHOLDS.items():
