@@ -1,7 +1,7 @@
 """Pages of documentation that follow from the code, so that each fact has one place."""
 
 from subslide import naming, scenes
-from subslide.keys import schema, words
+from subslide.keys import published, schema, words
 from subslide.records import thinning
 from subslide.tables import _convergence as convergence
 from subslide.tables import atlas, bands, cheapest, claims, errors, work_precision
@@ -9,6 +9,7 @@ from subslide.tables import cfl as courant
 from subslide.tables import runs as tables
 
 CONFIG_PAGE, TABLES_PAGE, RECORDS_PAGE = "config/README.md", "docs/tables.md", "docs/records.md"
+SCHEMA_PAGE = "config/study.schema.json"
 
 CONFIG_TEXT = """# Studies
 
@@ -20,6 +21,14 @@ One YAML file is one study. Run it with
 
 or, in the virtual environment that `make setup` makes, `snakemake --configfile config/mine.yaml --cores 2`.
 Results go to `results/<study>/`. Without a file Snakemake runs `config/paper.yaml`; files are never merged.
+
+An editor that knows YAML completes and checks a file that begins with
+
+```yaml
+# yaml-language-server: $schema=study.schema.json
+```
+
+and lies beside config/study.schema.json, a JSON Schema of all that follows.
 
 Keys are flat. A key that is marked as an axis takes one value or a list; the runs are the product of all lists, and a
 point that comes up twice runs once. `subslide check config/mine.yaml` tells what a file holds, or what is wrong.
@@ -111,6 +120,7 @@ def pages() -> dict[str, str]:
         CONFIG_PAGE: CONFIG_TEXT + keys() + presets() + all_scenes(),
         TABLES_PAGE: TABLES_TEXT + columns(),
         RECORDS_PAGE: RECORDS_TEXT + variables(),
+        SCHEMA_PAGE: published.text({name: scenes.load(name).OPTIONS for name in scenes.NAMES}),
     }
 
 
