@@ -2,13 +2,16 @@
 
 import math
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numba
 import numpy as np
 
 from subslide.kernels import clock as k
+from subslide.models.axial import Axial
 from subslide.models.build import build
+from subslide.models.plane import Plane
 from subslide.naming import FRONT_THRESHOLDS, STATUSES
 from subslide.points import Point
 from subslide.study import choice
@@ -76,7 +79,7 @@ class Run:
     box_half_width: float
 
 
-def solve(point, threads=1, progress=None):
+def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | None = None) -> Run:
     """Return the `Run` of a point; a numerical failure is a status, never an exception.
 
     threads: cores for one plane run (no result depends on it). progress: called with the fraction of the run's time.
@@ -91,7 +94,7 @@ def solve(point, threads=1, progress=None):
         box = grown
 
 
-def attempt(point, box, progress):
+def attempt(point: Point, box: int, progress: Callable[[float], object] | None) -> Run:
     """Return the run in a box of `box` cells from the axis, its surface watched within the smallest box."""
     time_scale = point.time_scale
     cap = REST_CAP / math.sqrt(1.0 - point.r) * time_scale
@@ -120,19 +123,21 @@ def attempt(point, box, progress):
     return make_run(point, model, series, snapshots, status, detail, wall, clock)
 
 
-def thresholds(model):
+def thresholds(model: Axial | Plane) -> tuple[np.floating, ...]:
     """Return the front's thresholds in the working precision."""
     return tuple(model.scene.r.dtype.type(value) for value in FRONT_THRESHOLDS)
 
 
-def warm_up(model):
+def warm_up(model: Axial | Plane) -> None:
     """Compile the time loop (or load it) with a segment of no length, which changes nothing but derived values."""
     model.advance(
         thresholds(model), np.array([0.0, 0.0, math.inf, -1.0]), np.empty((2, k.COLUMNS)), np.zeros(2, int)
     )
 
 
-def advance_to(model, clock, chunks, look):
+def advance_to(
+    model: Axial | Plane, clock: np.ndarray, chunks: list[np.ndarray], look: Callable[[float], object]
+) -> tuple[int, float]:
     """Return why the loop ended and its seconds; samples are appended to `chunks`, one for each instant.
 
     A loop that starts again samples its first instant again, so the last sample before it is dropped.
@@ -152,7 +157,7 @@ def advance_to(model, clock, chunks, look):
             return int(counters[k.OUTCOME]), wall
 
 
-def describe(status, model, series, time_scale):
+def describe(status: str, model: Axial | Plane, series: np.ndarray, time_scale: float) -> str:
     """Return one line on a run that did not end well: what, when, after how many steps, and where."""
     text = f"{STATUSES[status]}; t = {series[-1, k.TIME] * time_scale:.6g} s, step {len(series) - 1}"
     suspect = ""
@@ -163,7 +168,16 @@ def describe(status, model, series, time_scale):
     return f"{text}, {suspect}" if suspect else text
 
 
-def make_run(point, model, series, snapshots, status, detail, wall, clock):
+def make_run(
+    point: Point,
+    model: Axial | Plane,
+    series: np.ndarray,
+    snapshots: list[tuple],
+    status: str,
+    detail: str,
+    wall: float,
+    clock: np.ndarray,
+) -> Run:
     """Return the `Run` of a finished loop, in SI units."""
     R, H2, time_scale = point.radius, point.column_height, point.time_scale
     volume = model.copies * H2 * R**model.dimensions

@@ -232,7 +232,7 @@ def test_the_id_follows_the_rasters_content(raster):
     raster(x, x, np.full((10, 10), 0.011))
     other = config.make_point(values)
     assert first.id == again.id != other.id
-    with pytest.raises(scenes.SceneError, match="has changed"):
+    with pytest.raises(config.ConfigError, match="has changed"):
         scenes.check(first)
 
 

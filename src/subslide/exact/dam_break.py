@@ -9,12 +9,13 @@ import math
 
 import numpy as np
 
-from subslide.exact import frictionless, in_metres, scaled
+from subslide.exact import Profiles, frictionless, in_metres, scaled
+from subslide.points import Point
 from subslide.scenes import options
 from subslide.scenes.dam_break import step
 
 
-def middle(left, right, g=1.0):
+def middle(left: float, right: float, g: float = 1.0) -> tuple[float, float, float]:
     """Return depth, speed and shock speed between the rarefaction and the shock (0 < right <= left).
 
     The middle depth h solves u = 2 (sqrt(g left) - sqrt(g h)) = (h - right) sqrt(g (1/h + 1/right) / 2), by bisection.
@@ -30,7 +31,9 @@ def middle(left, right, g=1.0):
     return h, u, h * u / (h - right) if h > right else math.sqrt(g * h)
 
 
-def depth(x, t, left=1.0, right=0.0, g=1.0):
+def depth(
+    x: float | np.ndarray, t: float, left: float = 1.0, right: float = 0.0, g: float = 1.0
+) -> np.ndarray:
     """Return the depth at x and t of a dam that parts depths left and right, without friction."""
     x = np.asarray(x, float)
     if t <= 0:
@@ -43,7 +46,7 @@ def depth(x, t, left=1.0, right=0.0, g=1.0):
     return np.where(x < (u - math.sqrt(g * h)) * t, fan, np.where(x < shock * t, h, right))
 
 
-def edge(t, friction, h0=1.0):
+def edge(t: float | np.ndarray, friction: float, h0: float = 1.0) -> float | np.ndarray:
     """Return where the depth ends on a dry bed: 2 c0 t - friction t^2 / 2, at rest at 2 h0 / friction.
 
     friction: deceleration by Coulomb friction, mu g or scaled (g = 1); 0 without.
@@ -54,13 +57,13 @@ def edge(t, friction, h0=1.0):
     return 2 * c * t - 0.5 * friction * t**2
 
 
-def edge_position(point, time):
+def edge_position(point: Point, time: float) -> float:
     """Return where the grains of a dry dam break end (m) at the time (s), were the depth traced to 0; grains alone."""
     _, t = scaled(point, 0.0, time)
     return edge(t, point.friction_number) * point.radius
 
 
-def edge_known(point, time):
+def edge_known(point: Point, time: float) -> bool:
     """Return whether `edge_position` holds at the time (s): grains at r = 0 on a dry bed, within the box."""
     chosen = options(point)
     lone = (
@@ -72,7 +75,7 @@ def edge_known(point, time):
     return lone and edge_position(point, time) < point.half_box * point.radius
 
 
-def solution(point, x, time):
+def solution(point: Point, x: float | np.ndarray, time: float) -> Profiles:
     """Return h2 and eta (m) at x (m): of water alone; of grains at r = 0 without friction, whose water is not known.
 
     Known until a wave reaches the end of the box.

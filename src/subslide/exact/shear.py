@@ -16,25 +16,26 @@ import math
 
 import numpy as np
 
-from subslide.exact import frictionless, in_metres, scaled
+from subslide.exact import Profiles, frictionless, in_metres, scaled
+from subslide.points import Point
 from subslide.scenes import options
 from subslide.scenes.shear import base, mode, state, wave_number
 
 
-def growth_rate(point):
+def growth_rate(point: Point) -> float:
     """Return the rate (1/s) at which the amplitude of the point's wave grows: k Im(c), 0 where the wave is neutral."""
     layers = base(point)
     rate = wave_number(point) * complex(mode(*layers, point.r)[0]).imag
     return rate / point.time_scale
 
 
-def amplitude(point, time):
+def amplitude(point: Point, time: float) -> float:
     """Return the wave's amplitude over H2 at the time (s)."""
     start = options(point)["amplitude"]
     return start * math.exp(growth_rate(point) * time)
 
 
-def solution(point, x, time):
+def solution(point: Point, x: float | np.ndarray, time: float) -> Profiles:
     """Return h2 and eta (m) at x (m) by linear theory; known without friction."""
     s, t = scaled(point, x, time)
     h1, _, h2, _ = state(point, s, t)
@@ -43,7 +44,7 @@ def solution(point, x, time):
     return in_metres(point, h2, h1 + h2 - point.scaled_level)
 
 
-def amplitudes(point, x, profiles):
+def amplitudes(point: Point, x: np.ndarray, profiles: np.ndarray) -> np.ndarray:
     """Return the amplitude of the point's wave in each of the profiles (snapshots, x): its Fourier coefficient.
 
     x (m) are the cell centres of the whole box; the result has the profiles' unit.
@@ -52,7 +53,7 @@ def amplitudes(point, x, profiles):
     return 2 * np.abs(np.asarray(profiles) @ turns) / len(x)
 
 
-def measured_growth(point, x, times, profiles):
+def measured_growth(point: Point, x: np.ndarray, times: np.ndarray, profiles: np.ndarray) -> float:
     """Return the rate (1/s) at which the point's wave grows in profiles of h2 or eta (snapshots, x) at `times` (s).
 
     It is the slope of the line that fits log(amplitude) best; NaN for less than two times, or no finite amplitude.

@@ -8,11 +8,12 @@ import math
 
 import numpy as np
 
-from subslide.exact import in_metres, scaled
+from subslide.exact import Profiles, in_metres, scaled
+from subslide.points import Point
 from subslide.scenes import options
 
 
-def speed(t, start, friction, turbulence=0.0):
+def speed(t: float | np.ndarray, start: float, friction: float, turbulence: float = 0.0) -> np.ndarray:
     """Return u at t of du/dt = -friction - turbulence u^2 from u = start until it is 0."""
     t = np.asarray(t, float)
     if turbulence == 0:
@@ -23,7 +24,7 @@ def speed(t, start, friction, turbulence=0.0):
     return fall * np.tan(np.maximum(0.0, math.atan(start / fall) - math.sqrt(friction * turbulence) * t))
 
 
-def speed_of(point, time):
+def speed_of(point: Point, time: float | np.ndarray) -> np.ndarray:
     """Return the speed (m/s) of the layer of a point at the time (s); NaN for a law without a formula."""
     if point.friction not in ("coulomb", "voellmy"):
         return np.full(np.shape(time), np.nan)
@@ -34,7 +35,7 @@ def speed_of(point, time):
     return u * point.speed_scale
 
 
-def solution(point, x, time):
+def solution(point: Point, x: float | np.ndarray, time: float) -> Profiles:
     """Return h2 and eta (m) at x (m): both stay as they are until a wave comes from an end of the box."""
     s, t = scaled(point, x, time)
     start = options(point)["speed"]

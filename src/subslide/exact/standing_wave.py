@@ -9,23 +9,24 @@ import math
 
 import numpy as np
 
-from subslide.exact import frictionless, in_metres, scaled
+from subslide.exact import Profiles, frictionless, in_metres, scaled
+from subslide.points import Point
 from subslide.scenes import options
 from subslide.scenes._bessel import bessel
 from subslide.scenes.standing_wave import parts, speed, wave_number
 
 
-def form(shape, k, x, half):
+def form(shape: str, k: float, x: float | np.ndarray, half: float) -> np.ndarray:
     """Return the wave's form at x: 1 at the left wall of a line, or on the axis."""
     return bessel(0, k * np.asarray(x)) if shape == "round" else np.cos(k * (np.asarray(x) + half))
 
 
-def amplitude(point, time):
+def amplitude(point: Point, time: float) -> float:
     """Return the wave's amplitude over H2 when it turns, at any time."""
     return options(point)["amplitude"]
 
 
-def solution(point, x, time):
+def solution(point: Point, x: float | np.ndarray, time: float) -> Profiles:
     """Return h2 and eta (m) at x (m); known without friction, and for one layer where r = 0."""
     chosen = options(point)
     s, t = scaled(point, x, time)

@@ -23,6 +23,29 @@ from subslide.points import Point
 NAMES = tuple(catalogue.names("scenes"))
 
 
+class Grid(NamedTuple):
+    """Grid that a scene fills.
+
+    Attributes
+    ----------
+    geometry
+        ``radius``, ``line``, ``quarter`` or ``plane``.
+    dx
+        Cell size over R.
+    edges
+        Edges (n + 1) of the cells along each axis over R; the axis of the scene is at 0.
+    """
+
+    geometry: str
+    dx: float
+    edges: np.ndarray
+
+    @property
+    def centres(self) -> np.ndarray:
+        """Centres (n) of the cells."""
+        return 0.5 * (self.edges[1:] + self.edges[:-1])
+
+
 class State(NamedTuple):
     """An initial state: each a scalar or an array of the grid's shape (y first)."""
 

@@ -3,10 +3,13 @@
 Where two columns overlap the height is 1. The front is measured from the middle of the box, along x.
 """
 
+from typing import Any
+
 import numpy as np
 
 from subslide.keys.schema import ConfigError
-from subslide.scenes import cylinder, options, still_water
+from subslide.points import Point
+from subslide.scenes import Grid, State, cylinder, options, still_water
 from subslide.scenes._cells import over_plane
 from subslide.scenes._discs import ellipse_area, fraction
 
@@ -32,12 +35,12 @@ OPTIONS = {
 }
 
 
-def spread(chosen):
+def spread(chosen: dict[str, Any]) -> float:
     """Return half the distance of the centres."""
     return 0.5 * chosen["distance"] if chosen["count"] == 2 else 0.0
 
 
-def symmetry(point):
+def symmetry(point: Point) -> str:
     """Return the scene's symmetry."""
     chosen = options(point)
     if chosen["x"] or chosen["y"]:
@@ -45,7 +48,7 @@ def symmetry(point):
     return "quarter" if spread(chosen) else "round"
 
 
-def check(point):
+def check(point: Point) -> None:
     """Raise a ConfigError unless all columns stand in the smallest box."""
     chosen = options(point)
     for axis, reach in (("x", 1.0 + spread(chosen)), ("y", 1.0)):
@@ -56,7 +59,7 @@ def check(point):
             )
 
 
-def initial(grid, point):
+def initial(grid: Grid, point: Point) -> State:
     """Return the columns at rest under still water."""
     chosen = options(point)
     symmetric = symmetry(point)
@@ -74,7 +77,7 @@ def initial(grid, point):
     return still_water(h2, point.scaled_level)
 
 
-def union(x_edges, y_edges, place, half):
+def union(x_edges: np.ndarray, y_edges: np.ndarray, place: tuple[float, float], half: float) -> np.ndarray:
     """Return the fraction (ny, nx) of each cell within 1 of a centre at place[0] - half or + half along x.
 
     On either side of the line between the centres the nearer disc is the union of both.

@@ -6,7 +6,8 @@ The box needs `boundary: wall`. The answer is known exactly without friction, at
 
 import numpy as np
 
-from subslide.scenes import State, check_walls, options, still_water
+from subslide.points import Point
+from subslide.scenes import Grid, State, check_walls, options, still_water
 
 OPTIONS = {
     "layer": {
@@ -24,18 +25,18 @@ OPTIONS = {
 }
 
 
-def symmetry(point):
+def symmetry(point: Point) -> str:
     """Return the scene's symmetry."""
     return "line"
 
 
-def check(point):
+def check(point: Point) -> None:
     """Raise a ConfigError unless the box has walls for the grains behind the dam to lean on."""
     if options(point)["layer"] == "grains":
         check_walls(point)
 
 
-def initial(grid, point):
+def initial(grid: Grid, point: Point) -> State:
     """Return the layer at rest behind its dam."""
     chosen = options(point)
     level = point.scaled_level
@@ -44,6 +45,6 @@ def initial(grid, point):
     return still_water(step(grid.centres, 1.0, chosen["downstream"]), level)
 
 
-def step(x, left, right):
+def step(x: np.ndarray, left: float, right: float) -> np.ndarray:
     """Return the depth at x: ``left`` before the dam at 0, ``right`` from there on."""
     return np.where(x < 0, left, right)

@@ -2,7 +2,8 @@
 
 import math
 
-from subslide.scenes import cylinder, options, still_water
+from subslide.points import Point
+from subslide.scenes import Grid, State, cylinder, options, still_water
 from subslide.scenes._cells import over_plane
 from subslide.scenes._discs import ellipse_area, fraction
 
@@ -25,7 +26,7 @@ OPTIONS = {
 }
 
 
-def symmetry(point):
+def symmetry(point: Point) -> str:
     """Return the scene's symmetry."""
     chosen = options(point)
     if chosen["elongation"] == 1:
@@ -33,7 +34,7 @@ def symmetry(point):
     return "quarter" if chosen["angle"] % 90 == 0 else "none"
 
 
-def initial(grid, point):
+def initial(grid: Grid, point: Point) -> State:
     """Return the column at rest under still water."""
     chosen = options(point)
     symmetric = symmetry(point)

@@ -5,18 +5,19 @@ Without friction and with r = 0 it spreads as `exact.paraboloid` says.
 
 import numpy as np
 
-from subslide.scenes import still_water
+from subslide.points import Point
+from subslide.scenes import Grid, State, still_water
 from subslide.scenes._cells import means, over_plane
 
 OPTIONS = {}
 
 
-def symmetry(point):
+def symmetry(point: Point) -> str:
     """Return the scene's symmetry."""
     return "round"
 
 
-def initial(grid, point):
+def initial(grid: Grid, point: Point) -> State:
     """Return the paraboloid at rest under still water."""
     if grid.geometry == "radius":
         h2 = ring_mean(grid.edges)
@@ -25,12 +26,12 @@ def initial(grid, point):
     return still_water(h2, point.scaled_level)
 
 
-def depth(x, rim=1.0):
+def depth(x: float | np.ndarray, rim: float = 1.0) -> np.ndarray:
     """Return h = (1 - x^2/rim^2) / rim^2, 0 beyond the rim: the paraboloid, spread without loss of volume."""
     return (1.0 / rim) ** 2 * np.maximum(0.0, 1.0 - (x / rim) ** 2)
 
 
-def ring_mean(edges, rim=1.0):
+def ring_mean(edges: np.ndarray, rim: float = 1.0) -> np.ndarray:
     """Return the mean depth (n) of the rings between the radii `edges` (n + 1)."""
     s = np.minimum(edges / rim, 1.0) ** 2
     volume = s / 2 - s**2 / 4  # over 2 pi, within each radius

@@ -5,11 +5,13 @@ paper).
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
 from subslide.keys.schema import ConfigError
-from subslide.scenes import options, still_water
+from subslide.points import Point
+from subslide.scenes import Grid, State, options, still_water
 from subslide.scenes._cells import means, over_plane
 
 OPTIONS = {
@@ -32,7 +34,7 @@ OPTIONS = {
 }
 
 
-def symmetry(point):
+def symmetry(point: Point) -> str:
     """Return the scene's symmetry."""
     chosen = options(point)
     if chosen["shape"] == "cone":
@@ -40,7 +42,7 @@ def symmetry(point):
     return "quarter" if chosen["angle"] % 45 == 0 else "none"
 
 
-def check(point):
+def check(point: Point) -> None:
     """Raise a ConfigError without friction, which no pile can rest on."""
     if point.delta == 0:
         raise ConfigError(
@@ -48,7 +50,7 @@ def check(point):
         )
 
 
-def initial(grid, point):
+def initial(grid: Grid, point: Point) -> State:
     """Return the pile at rest under still water; cells hold the mean depth, whose slope is never the steeper."""
     chosen = options(point)
     slope = chosen["steepness"] * point.friction_number
@@ -68,13 +70,13 @@ def initial(grid, point):
     return still_water(h2, point.scaled_level)
 
 
-def cone_rings(edges, slope):
+def cone_rings(edges: np.ndarray, slope: float) -> np.ndarray:
     """Return the mean depth (n) of a cone over the rings between the radii `edges` (n + 1)."""
     s = np.minimum(edges, 1.0 / slope)
     return np.diff(s**2 / 2 - slope * s**3 / 3) / (np.diff(edges**2) / 2)
 
 
-def pyramid(slope, degrees):
+def pyramid(slope: float, degrees: float) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
     """Return the depth, as a function of x and y, of a pyramid on a square that is turned by an angle."""
     c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     return lambda x, y: np.maximum(

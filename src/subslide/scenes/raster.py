@@ -8,11 +8,13 @@ The file's SHA-256 becomes one of the options, so that a run's id follows what t
 import functools
 import hashlib
 import os
+from typing import Any
 
 import numpy as np
 
 from subslide.keys.schema import ConfigError
-from subslide.scenes import options, still_water
+from subslide.points import Point
+from subslide.scenes import Grid, State, options, still_water
 
 OPTIONS = {
     "file": {
@@ -39,12 +41,12 @@ OPTIONS = {
 }
 
 
-def symmetry(point):
+def symmetry(point: Point) -> str:
     """Return the scene's symmetry."""
     return "none"
 
 
-def complete(chosen):
+def complete(chosen: dict[str, Any]) -> dict[str, Any]:
     """Return the options with the file's SHA-256; a ConfigError if it cannot be read, or is not the one given."""
     sha256 = content(chosen["file"])
     if chosen["sha256"] not in ("", sha256):
@@ -54,7 +56,7 @@ def complete(chosen):
     return {**chosen, "sha256": sha256}
 
 
-def check(point):
+def check(point: Point) -> None:
     """Raise a ConfigError unless the file is there, unchanged, and holds grains under the water and in the box."""
     chosen = complete(options(point))
     raster = read(chosen["file"], chosen["sha256"])
@@ -72,7 +74,7 @@ def check(point):
         )
 
 
-def initial(grid, point):
+def initial(grid: Grid, point: Point) -> State:
     """Return the raster's grains at rest under still water."""
     chosen = complete(options(point))
     raster = read(chosen["file"], chosen["sha256"])
@@ -90,12 +92,12 @@ class Raster:
         self.x, self.y = np.sort(x), np.sort(y)
         self.h2 = h2[np.argsort(y)][:, np.argsort(x)]
 
-    def used(self):
+    def used(self) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
         """Return (coordinates, whether there are grains) along x and along y."""
         return (self.x, self.h2.any(axis=0)), (self.y, self.h2.any(axis=1))
 
 
-def overlap(edges, centres):
+def overlap(edges: np.ndarray, centres: np.ndarray) -> np.ndarray:
     """Return the share (n, pixels) of each cell between `edges` (n + 1) that lies in each pixel."""
     half = 0.5 * (centres[1] - centres[0])
     upper = np.minimum(edges[1:, None], centres + half)
@@ -103,13 +105,13 @@ def overlap(edges, centres):
     return np.maximum(0.0, upper - lower) / np.diff(edges)[:, None]
 
 
-def hats(edges, centres):
+def hats(edges: np.ndarray, centres: np.ndarray) -> np.ndarray:
     """Return the weights (n, pixels) of linear interpolation to the middles of cells."""
     middles = 0.5 * (edges[1:] + edges[:-1])
     return np.maximum(0.0, 1.0 - np.abs(middles[:, None] - centres) / (centres[1] - centres[0]))
 
 
-def content(path):
+def content(path: str) -> str:
     """Return the SHA-256 (hex) of a file's content."""
     try:
         about = os.stat(path)
@@ -123,13 +125,14 @@ def content(path):
 
 
 @functools.lru_cache(maxsize=64)
-def _content(path, changed, size):
+def _content(path: str, changed: int, size: int) -> str:
+    """Return the hash of a file, anew once its time or size has changed."""
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 @functools.lru_cache(maxsize=4)
-def read(path, sha256):
+def read(path: str, sha256: str) -> Raster:
     """Return the `Raster` of a file with that content; a ConfigError if it is not as the scene wants it."""
     import netCDF4
 

@@ -11,7 +11,8 @@ import math
 import numpy as np
 
 from subslide.keys.schema import ConfigError
-from subslide.scenes import State, options
+from subslide.points import Point
+from subslide.scenes import Grid, State, options
 
 OPTIONS = {
     "shear": {
@@ -45,12 +46,12 @@ OPTIONS = {
 }
 
 
-def symmetry(point):
+def symmetry(point: Point) -> str:
     """Return the scene's symmetry."""
     return "line"
 
 
-def check(point):
+def check(point: Point) -> None:
     """Raise a ConfigError unless both layers are there in a box without ends."""
     if point.boundary != "periodic":
         raise ConfigError(
@@ -65,13 +66,15 @@ def check(point):
         )
 
 
-def initial(grid, point):
+def initial(grid: Grid, point: Point) -> State:
     """Return the sliding layers with the wave."""
     h1, u1, h2, u2 = state(point, grid.centres, half_cell=0.5 * grid.dx)
     return State(h1, h2, u1=u1, u2=u2)
 
 
-def state(point, x, t=0.0, half_cell=0.0):
+def state(
+    point: Point, x: float | np.ndarray, t: float = 0.0, half_cell: float = 0.0
+) -> tuple[np.ndarray, ...]:
     """Return (h1, u1, h2, u2) with the wave at scaled places x (n) and time t: means over x -+ half_cell."""
     layers = base(point)
     k = wave_number(point)
@@ -81,7 +84,7 @@ def state(point, x, t=0.0, half_cell=0.0):
     return tuple(value + (part * form).real for value, part in zip(layers, wave, strict=True))
 
 
-def speeds(h1, u1, h2, u2, r):
+def speeds(h1: float, u1: float, h2: float, u2: float, r: float) -> np.ndarray:
     """Return the four wave speeds (complex), by real part, of a pair the one that decays first."""
     first = np.poly1d([1, -2 * u1, u1 * u1 - h1])
     second = np.poly1d([1, -2 * u2, u2 * u2 - h2])
@@ -89,7 +92,7 @@ def speeds(h1, u1, h2, u2, r):
     return roots[np.lexsort((roots.imag, np.round(roots.real, 9)))]
 
 
-def discriminant(h1, h2, shear, r):
+def discriminant(h1: float, h2: float, shear: float, r: float) -> float:
     """Return the discriminant of the quartic of the speeds, (4 I^3 - J^2) / 27: negative where a pair is complex."""
     d2 = shear * shear / 4
     p = -2 * d2 - h1 - h2
@@ -100,7 +103,7 @@ def discriminant(h1, h2, shear, r):
     return (4 * i**3 - j * j) / 27
 
 
-def critical_shear(h1, h2, r):
+def critical_shear(h1: float, h2: float, r: float) -> float:
     """Return the least |u1 - u2| at which wave speeds become complex; its limit at r = 0, where none ever does.
 
     A shear of sqrt(h1) + sqrt(h2) always has a complex pair, and below it the verdict changes once: with the shear
@@ -118,13 +121,13 @@ def critical_shear(h1, h2, r):
     return low
 
 
-def velocities(h1, h2, r, shear, drift=0.0):
+def velocities(h1: float, h2: float, r: float, shear: float, drift: float = 0.0) -> tuple[float, float]:
     """Return (u1, u2) that differ by `shear`, in the frame where r h1 u1 + h2 u2 = 0, plus `drift`."""
     mass = r * h1 + h2
     return drift + shear * h2 / mass, drift - shear * r * h1 / mass
 
 
-def mode(h1, u1, h2, u2, r):
+def mode(h1: float, u1: float, h2: float, u2: float, r: float) -> tuple[complex, np.ndarray]:
     """Return the speed of the wave on the interface, and (dh1, du1, dh2, du2) of it: complex, max(|dh1|, |dh2|) = 1.
 
     Of the inner pair it is the wave that grows, or the faster one where none does.
@@ -138,7 +141,7 @@ def mode(h1, u1, h2, u2, r):
     return c, wave / max(abs(dh1), abs(dh2))
 
 
-def base(point):
+def base(point: Point) -> tuple[float, float, float, float]:
     """Return (h1, u1, h2, u2) of the point's layers without the wave."""
     chosen = options(point)
     h1, h2 = point.a_H, 1.0
@@ -146,6 +149,6 @@ def base(point):
     return h1, u1, h2, u2
 
 
-def wave_number(point):
+def wave_number(point: Point) -> float:
     """Return the scaled wave number of the point's wave, which fits the periodic box `mode` times."""
     return options(point)["mode"] * math.pi / point.half_box

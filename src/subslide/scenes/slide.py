@@ -6,7 +6,8 @@ The box needs `boundary: wall`.
 
 import numpy as np
 
-from subslide.scenes import check_walls, options, still_water
+from subslide.points import Point
+from subslide.scenes import Grid, State, check_walls, options, still_water
 
 OPTIONS = {
     "speed": {
@@ -19,16 +20,16 @@ OPTIONS = {
 }
 
 
-def symmetry(point):
+def symmetry(point: Point) -> str:
     """Return the scene's symmetry."""
     return "line"
 
 
-def check(point):
+def check(point: Point) -> None:
     """Raise a ConfigError unless the layer ends at walls."""
     check_walls(point)
 
 
-def initial(grid, point):
+def initial(grid: Grid, point: Point) -> State:
     """Return the sliding layer under still water."""
     return still_water(np.ones(len(grid.centres)), point.scaled_level)._replace(u2=options(point)["speed"])

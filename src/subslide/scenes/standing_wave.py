@@ -8,7 +8,8 @@ import math
 import numpy as np
 
 from subslide.keys.schema import ConfigError
-from subslide.scenes import State, check_walls, options
+from subslide.points import Point
+from subslide.scenes import Grid, State, check_walls, options
 from subslide.scenes._bessel import bessel, zero_of_j1
 
 OPTIONS = {
@@ -39,12 +40,12 @@ OPTIONS = {
 }
 
 
-def symmetry(point):
+def symmetry(point: Point) -> str:
     """Return the scene's symmetry."""
     return options(point)["shape"]
 
 
-def check(point):
+def check(point: Point) -> None:
     """Raise a ConfigError unless there are water and walls, and in the plane, whose walls are no circle."""
     check_walls(point)
     if point.a_H == 0:
@@ -58,7 +59,7 @@ def check(point):
         )
 
 
-def initial(grid, point):
+def initial(grid: Grid, point: Point) -> State:
     """Return both layers at rest, displaced by the wave."""
     chosen = options(point)
     half = grid.edges[-1]
@@ -68,7 +69,7 @@ def initial(grid, point):
     return State(point.a_H + dh1 * wave, 1.0 + dh2 * wave)
 
 
-def speed(kind, h1, h2, r, g=1.0):
+def speed(kind: str, h1: float, h2: float, r: float, g: float = 1.0) -> float:
     """Return the wave speed of the "surface" or the "internal" mode."""
     H = h1 + h2
     root = math.sqrt(max(0.0, 1 - 4 * (1 - r) * h1 * h2 / H**2))
@@ -77,19 +78,19 @@ def speed(kind, h1, h2, r, g=1.0):
     return math.sqrt(2 * g * (1 - r) * h1 * h2 / (H * (1 + root)))
 
 
-def parts(kind, h1, h2, r):
+def parts(kind: str, h1: float, h2: float, r: float) -> tuple[float, float]:
     """Return (dh1, dh2) of the mode, the larger of the two 1 in size and dh1 not negative."""
     ratio = speed(kind, h1, h2, r) ** 2 / h1 - 1
     size = max(1.0, abs(ratio))
     return 1.0 / size, ratio / size
 
 
-def wave_number(shape, mode, half):
+def wave_number(shape: str, mode: int, half: float) -> float:
     """Return k of the wave with `mode` half wavelengths between walls at -half and half, or in the ring's radius."""
     return zero_of_j1(mode) / half if shape == "round" else mode * math.pi / (2 * half)
 
 
-def form_mean(shape, k, edges, half):
+def form_mean(shape: str, k: float, edges: np.ndarray, half: float) -> np.ndarray:
     """Return the means (n) of the form over cells or rings between `edges` (n + 1)."""
     if shape == "round":
         return np.diff(edges * bessel(1, k * edges) / k) / (0.5 * np.diff(edges**2))

@@ -12,10 +12,20 @@ from subslide.points import Point
 
 
 class Region(NamedTuple):
-    """A region: whether a point lies in it, why it is unsafe, what to choose instead, and where that was seen:
-    the study, and its part.
+    """Region of unsafe points.
 
-    example: keys of a run in it that shows the harm; instead: keys that mend that run.
+    Attributes
+    ----------
+    name
+        What it is called.
+    holds
+        Function that tells whether a point lies in it.
+    reason, advice
+        Why it is unsafe, and what to choose instead.
+    example, instead
+        Keys of a run in it that shows the harm, and keys that mend that run.
+    seen
+        Study, and its part, where that was seen.
     """
 
     name: str
@@ -39,6 +49,7 @@ LARGEST_CFL = 1.0
 
 
 def _under_film(point: Point) -> bool:
+    """Return whether a film of water lies over a column of which some stays at rest."""
     return (
         point.scene in ("cylinder", "columns", "ellipse")
         and point.model != "one-layer"
@@ -50,20 +61,24 @@ def _under_film(point: Point) -> bool:
 
 
 def _far(point: Point) -> bool:
+    """Return whether grains run out of the largest box, or for ever."""
     return point.t_end is None and point.friction == "coulomb" and point.friction_number < LEAST_FRICTION
 
 
 def _floating(point: Point) -> bool:
+    """Return whether grains nearly float, in a solver that resolves the waves between the layers."""
     return point.r > FLOATING and point.model != "one-layer" and point.scheme in ("ifcph", "ifcp", "roe")
 
 
 def _standing_jump(point: Point) -> bool:
+    """Return whether a dam breaks over a dry bed in a solver that may keep a jump there."""
     if point.scene != "dam_break" or point.order != 1 or point.scheme not in ("ifcp", "roe"):
         return False
     return scenes.options(point)["downstream"] == 0
 
 
 def _sliding(point: Point) -> bool:
+    """Return whether layers slide so fast over each other that their waves grow without end."""
     return (
         point.scene == "shear" and point.treatment in ("real", "hll") and scenes.options(point)["shear"] > 1
     )
@@ -174,12 +189,12 @@ REGIONS = (
 
 
 def regions_of(point: Point) -> list[Region]:
-    """Regions that a point lies in."""
+    """Return the regions that a point lies in."""
     return [region for region in REGIONS if region.holds(point)]
 
 
 def cautions(points: Iterable[Point]) -> list[str]:
-    """Lines to say of points, one for each region that any lies in, with how many do where there are several."""
+    """Return the lines to say of points, one for each region that any lies in, with how many do out of several."""
     points = list(points)
     lines = []
     for region in REGIONS:
