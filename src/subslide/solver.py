@@ -42,12 +42,34 @@ assert set(ENDED.values()) <= set(STATUSES)
 
 @dataclass
 class Run:
-    """What a point's run gave: float64 arrays in SI units, sample s of each series at `time[s]`.
+    """Result of a point's run: float64 arrays in SI units.
 
-    `model` is the one that was solved, `model_reason` why, in words.
+    What a model does not have (water of one layer, the diagonal of a radius) is NaN or None.
 
-    `x_front` is (thresholds, samples), profiles (snapshots, x), fields (snapshots, y, x) in float32. What a model does
-    not have (water of one layer, the diagonal of a radius) is NaN or None.
+    Attributes
+    ----------
+    point
+        The run.
+    model, model_reason
+        Model that was solved, and why, in words.
+    dx, x
+        Cell size and cell centres (x) in m from the axis.
+    time
+        Times (samples) of the series in s; the series are those of `naming.SERIES`.
+    x_front
+        Front (thresholds, samples) in m at each of `naming.FRONT_THRESHOLDS`.
+    snapshot_time
+        Times (snapshots) in s of the profiles (snapshots, x) and of the fields (snapshots, y, x), which are float32.
+    L_f
+        Length of the deposit (thresholds) in m; NaN if the run failed.
+    status, status_detail
+        How the run ended, one of `naming.STATUSES`, and what ended it, in words.
+    steps, wall_seconds
+        Time steps, and seconds of the time loop alone.
+    time_at_rest
+        Time in s since which no grain has moved; NaN if there is none.
+    box_half_width
+        Half-width of the box in m.
     """
 
     point: Point
@@ -82,7 +104,14 @@ class Run:
 def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | None = None) -> Run:
     """Return the `Run` of a point; a numerical failure is a status, never an exception.
 
-    threads: cores for one plane run (no result depends on it). progress: called with the fraction of the run's time.
+    Parameters
+    ----------
+    point
+        The run.
+    threads
+        Cores for one plane run; no result depends on it.
+    progress
+        Function that is called with the fraction of the run's time that is done.
     """
     numba.set_num_threads(max(1, min(threads, numba.config.NUMBA_NUM_THREADS)))
     box = point.half_cells

@@ -9,8 +9,8 @@ from subslide.kernels.arrays import GeneralScene, Scene
 from subslide.kernels.viscosity import SCHEMES
 from subslide.kernels.waves import SPEEDS
 from subslide.models.axial import Axial
-from subslide.models.grid import Grid
 from subslide.models.plane import Plane
+from subslide.scenes import Grid
 
 THRESHOLDS = (0.01, 0.03, 0.05)
 

@@ -1,8 +1,14 @@
 """Formulas that judge the solver: one exact solution a file, for the scene of the same name.
 
-`solution(point, x, time)` returns profiles {"h2": m, "eta": m} at the places x (m) and the time (s), NaN where no
-exact solution is known; or `stays(point)` returns whether the grains must not move at all. Functions beside it are in
-scaled variables unless they take g: lengths over R, depths over H2, speeds over sqrt(g H2).
+A module, found by listing this folder, has one of
+
+``solution(point, x, time) -> Profiles``
+    Profiles h2 and eta (m) at the places x (m) and the time (s), NaN where no exact solution is known.
+``stays(point) -> bool``
+    Whether the grains must not move at all.
+
+Functions beside it are in scaled variables unless they take g: lengths over R, depths over H2, speeds over sqrt(g H2).
+Formulas that the initial state needs too stand in the scene's own module.
 """
 
 from importlib import import_module

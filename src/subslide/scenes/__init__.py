@@ -1,13 +1,21 @@
 """Scenes: initial states, one file each, scaled (depths by H2, lengths by R, speeds by sqrt(g H2)).
 
-A scene module, found by listing this folder, has
+A scene is one module of this folder, found by listing it; names that begin with ``_`` are helpers. It has
 
-- `OPTIONS`: JSON schema of each option of the scene by name, with its description and default;
-- `symmetry(point)`: "round", "line", "quarter" (mirrors on both axes) or "none": see `study.choice`;
-- `initial(grid, point)`: the `State`;
-- if need be `check(point)`, which raises a ConfigError where the scene makes no sense with the rest of a point;
-- if need be `complete(options)`, which returns checked options with what follows from them filled in;
-- the formulas that its state needs. Those that judge how it goes on are in `exact`, under the scene's name.
+``OPTIONS``
+    Entry of each option of the scene by name, in the words of `subslide.keys.entries`. An option is an axis unless its
+    entry says ``"axis": False``; without a ``default`` it must be given.
+``symmetry(point) -> str``
+    ``round``, ``line``, ``quarter`` (mirrors on both axes) or ``none``: which models may solve it (`study.choice`).
+``initial(grid, point) -> State``
+    The initial state on a `Grid`, as means over its cells (see `_cells`).
+``check(point)``, if need be
+    Raise a ConfigError where the scene makes no sense with the rest of the point.
+``complete(options) -> dict``, if need be
+    Return checked options with what follows from them filled in; a ConfigError where that cannot be.
+
+Its docstring is its section of config/README.md. Formulas that the initial state needs stand in the module; those that
+judge how it goes on are in `subslide.exact`, under the scene's name.
 """
 
 from importlib import import_module
@@ -47,7 +55,7 @@ class Grid(NamedTuple):
 
 
 class State(NamedTuple):
-    """An initial state: each a scalar or an array of the grid's shape (y first)."""
+    """Initial state: scaled depths and speeds, each a scalar or an array of the grid's shape (y first)."""
 
     h1: np.ndarray
     h2: np.ndarray
