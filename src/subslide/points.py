@@ -3,7 +3,7 @@
 import hashlib
 import json
 import math
-from dataclasses import asdict, make_dataclass, replace
+from dataclasses import make_dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -163,7 +163,7 @@ def canonical(point: Point) -> str:
 
 def to_dict(point: Point) -> dict[str, Any]:
     """Return the values of a point by key, as a configuration would state them; numbers in one format."""
-    values = asdict(point)
+    values = {key: getattr(point, key) for key in RUN_KEYS}
     for key in FLOATS:
         if values[key] is not None:
             values[key] = float(values[key]) + 0.0  # -0.0 becomes 0.0
@@ -190,4 +190,4 @@ def from_dict(values: dict[str, Any]) -> Point:
     values["scene_options"] = tuple(sorted(values.get("scene_options", {}).items()))
     if values.get("snapshot_times") is not None:
         values["snapshot_times"] = tuple(sorted({float(t) for t in values["snapshot_times"]}))
-    return replace(Point(), **values)
+    return Point(**values)

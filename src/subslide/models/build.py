@@ -15,10 +15,11 @@ from subslide.kernels.waves import SPEEDS
 from subslide.models.axial import Axial
 from subslide.models.grid import make_grid
 from subslide.models.plane import Plane
+from subslide.points import Point
 from subslide.study import choice
 
 
-def scaled(point, layers, dx, dry_depth):
+def scaled(point: Point, layers: int, dx: float, dry_depth: float) -> Scene | GeneralScene:
     """Return the scaled numbers of a point (`kernels.arrays.Scene`) in its working precision."""
     real = np.dtype(point.dtype).type
     mu = math.tan(math.radians(point.delta))
@@ -46,21 +47,17 @@ def scaled(point, layers, dx, dry_depth):
     return GeneralScene(*scene, general=1) if choice.of(point).general else scene
 
 
-def build(point, box, watched, dry_depth):
+def build(point: Point, box: int, watched: int, dry_depth: float) -> Axial | Plane:
     """Return the model of a point in its initial state.
 
     Parameters
     ----------
-    point : Point
+    point
         The run; how it is solved follows from it (`study.choice`).
-    box, watched : int
+    box, watched
         Cells from the axis to the end of the box, and of the region where the surface is watched.
-    dry_depth : float
+    dry_depth
         Depth over H2 below which a layer counts as dry.
-
-    Returns
-    -------
-    Axial or Plane
     """
     real = np.dtype(point.dtype).type
     model, geometry, *_ = choice.of(point)
