@@ -3,9 +3,9 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from subslide import exact, figures, source_hash
+from subslide import catalogue, exact, source_hash
 from subslide.keys.schema import ConfigError
-from subslide.study import batches as ledger
+from subslide.study import batches
 from subslide.study.config import make_study
 from subslide.tables._problems import problems
 
@@ -20,7 +20,7 @@ except ConfigError as error:
     raise WorkflowError(f"configuration: {error}") from None
 
 RESULTS = Path("results", STUDY.name)
-PLAN = ledger.plan(STUDY, RESULTS, extend=workflow.is_main_process)
+PLAN = batches.plan(STUDY, RESULTS, extend=workflow.is_main_process)
 
 
 include: "workflow/rules/solve.smk"

@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 import subslide
-from subslide.keys import schema
+from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS
 
@@ -23,7 +23,7 @@ class Verbs(click.Group):
 
     def resolve_command(self, ctx, args):
         if args and args[0] not in self.commands:
-            hint = schema.closest(args[0], self.commands)
+            hint = words.closest(args[0], self.commands)
             raise click.UsageError(
                 f"{args[0]}: there is no such command; allowed: {', '.join(self.commands)}{hint}"
             )
@@ -45,7 +45,7 @@ def run_options(command):
         if about.get("type") == "boolean":
             option = click.option(f"{flag}/--no-{flag[2:]}", key, default=None, help=_help(key))
         else:
-            metavar = schema.metavar(key)
+            metavar = words.metavar(key)
             option = click.option(flag, key, metavar=metavar, help=f"{_help(key)}  [default: {default}]")
         command = option(command)
     return command
@@ -53,8 +53,8 @@ def run_options(command):
 
 def _help(key: str) -> str:
     about = schema.properties()[key]
-    unit = f" [{schema.unit(key)}]" if schema.unit(key) else ""
-    choice = "" if "enum" in about or about.get("type") == "boolean" else f"; {schema.allowed(key)}"
+    unit = f" [{words.unit(key)}]" if words.unit(key) else ""
+    choice = "" if "enum" in about or about.get("type") == "boolean" else f"; {words.allowed(key)}"
     return f"{about['description']}{unit}{choice}"
 
 

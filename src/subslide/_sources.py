@@ -5,7 +5,7 @@ import hashlib
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent
-SOLVER = ("kernels", "fields.py")
+SOLVER = ("kernels", "naming.py", "keys/names.py")
 """Parts whose code is compiled, or is read by code that is."""
 
 DRAWING = ("figures", "drawing.py", "docs.py", "claims", "laboratory.py", "guard.py", "work_precision")
@@ -31,7 +31,7 @@ def source_hash(part: str = "results", figure: str = "") -> str:
 def _belongs(name: Path, part: str, figure: str) -> bool:
     """True if a source file, by its path within the package, counts for this part."""
     if part == "solver":
-        return name.parts[0] in SOLVER
+        return name.parts[0] in SOLVER or name.as_posix() in SOLVER
     if part == "results":
         return name.parts[0] not in DRAWING
     return name.parts[0] != "figures" or name.stem.startswith("_") or name.stem == figure

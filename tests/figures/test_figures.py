@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from made_up import RESOLVED, MadeUpResults, grid
 
-from subslide import figures
+from subslide import catalogue
 from subslide.figures import _slices, _style, _words
 from subslide.laboratory import lube as laboratory
 
-NAMES = [name for name in figures.names() if name.startswith("fig")]
+NAMES = [name for name in catalogue.names("figures") if name.startswith("fig")]
 """Figures of collapses; those of verification are in test_verify.py."""
 CAPTIONS = Path(__file__).parents[2] / "workflow" / "report"
 UNIT = re.compile(r"\((mm|cm|m|km|ms|s|%)\)|/R\$|/H_2\$|^\$r\$$")
@@ -46,9 +46,9 @@ def test_labels_have_units(name, paper):
     assert "first-order IFCPH, cells of 3 mm" in words(figure)
 
 
-@pytest.mark.parametrize("name", figures.names())
+@pytest.mark.parametrize("name", catalogue.names("figures"))
 def test_is_described(name):
-    about = figures.about(name)
+    about = catalogue.figure(name)
     assert (CAPTIONS / f"{name}.rst").read_text(encoding="utf-8").strip()
     assert re.match(r"\d \w", about.category)
     assert about.title != name
@@ -57,7 +57,7 @@ def test_is_described(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_any_study_that_has_the_needs(name):
-    needs = figures.about(name).needs
+    needs = catalogue.figure(name).needs
     few = grid(needs.get("a_H", (3,)), needs.get("r", (0.3,)), radius=7.0, a_2=0.8, delta=25.0, order=2)
     figure = draw(name, MadeUpResults(few))
     assert seen(figure)
@@ -85,11 +85,11 @@ def test_failed_runs_are_named(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_short_run_of_the_grains_alone(name, tmp_path):
-    needs = figures.about(name).needs
+    needs = catalogue.figure(name).needs
     values = {"resolved_model": "one-layer", "t_end": "0.05", "until": 0.05}
     figure = draw(name, MadeUpResults(grid(needs.get("a_H", (1,)), needs.get("r", (0,)), **values)))
     figure.savefig(tmp_path / "figure.svg", bbox_inches="tight")
-    if "surface" in figures.about(name).title:
+    if "surface" in catalogue.figure(name).title:
         assert "water surface" in words(figure)
 
 

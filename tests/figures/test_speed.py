@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from subslide import figures
+from subslide import catalogue
 from subslide.figures import work_precision
 from subslide.study.config import make_study
 from subslide.tables import work_precision as table
@@ -116,7 +116,7 @@ def test_factors_are_rounded_down(value, rounded):
 
 
 def test_only_studies_with_a_sweep_have_the_figure():
-    assert figures.about("work_precision").needs["model"] == ("plane", "radial")
+    assert catalogue.figure("work_precision").needs["model"] == ("plane", "radial")
     sweep = {"study": "t", "model": ["radial", "plane"], "order": [1, 2]}
     assert "work_precision" in make_study(sweep).figures
     assert "work_precision" not in make_study({"study": "t"}).figures

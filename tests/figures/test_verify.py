@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from subslide import exact, figures
+from subslide import catalogue, exact
 from subslide.points import options_text, to_dict
 from subslide.study.config import make_study
 
@@ -96,6 +96,6 @@ def test_profiles_of_two_grids_and_orders_lie_on_the_exact_one():
 
 @pytest.mark.parametrize("name", ["verify_orders", "verify_profiles"])
 def test_only_studies_with_these_scenes_have_the_figures(name):
-    assert figures.about(name).needs == {"scene": ("dam_break", "paraboloid", "standing_wave")}
+    assert catalogue.figure(name).needs == {"scene": ("dam_break", "paraboloid", "standing_wave")}
     assert name in make_study({"study": "t", "cases": CASES, "delta": 0}).figures
     assert name not in make_study({"study": "t"}).figures

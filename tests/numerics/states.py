@@ -9,8 +9,8 @@ from subslide.kernels import samples, viscosity
 from subslide.kernels.arrays import GeneralSettings, Settings, Track
 from subslide.keys.names import SPEEDS, flags
 from subslide.models.axial import Axial
-from subslide.models.grid import Grid
 from subslide.models.plane import Plane
+from subslide.scenes import Grid
 
 THRESHOLDS = (0.01, 0.03, 0.05)
 

@@ -63,7 +63,7 @@ def energies(cells, a_H, scheme, radial=False, **options):
 @pytest.mark.parametrize("scheme", SCHEMES)
 @pytest.mark.parametrize("cells", [50, 100])
 def test_energy_never_grows_at_first_order_on_a_line(scheme, cells):
-    for r, a_H, friction in STATES:
+    for r, a_H, m in STATES:
         energy = energies(cells, a_H, scheme, order=1, r=r, m=m)
         assert np.diff(energy).max() <= 1e-14 * energy[0]
 
@@ -73,7 +73,7 @@ def test_energy_never_grows_at_first_order_on_a_line(scheme, cells):
 def test_a_step_gives_back_energy_in_proportion_to_dx_at_most(scheme, case):
     geometry, order = case
     for cells in (50, 100, 200):
-        for r, a_H, friction in STATES:
+        for r, a_H, m in STATES:
             options = {"order": order, "r": r, "friction": friction}
             energy = energies(cells, a_H, scheme, geometry == "radius", **options)
             given_back = np.diff(energy).max() / (energy[0] - energy[-1])

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from states import advance, axial, inner
 
-from subslide.exact import dam_break, standing_wave
-from subslide.exact._bessel import bessel, zero_of_j1
+from subslide.exact import dam_break
 from subslide.exact.paraboloid import depth, radius, ring_mean
+from subslide.scenes import standing_wave
+from subslide.scenes._bessel import bessel, zero_of_j1
 from subslide.solver import solve
 from subslide.study import config
 

@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from states import advance, axial, inner
 
-from subslide.fields import STATUSES
 from subslide.kernels import clock as k
 from subslide.kernels import samples as columns
 from subslide.keys.names import SCHEMES
+from subslide.naming import STATUSES
 from subslide.points import Point
 from subslide.scenes.cylinder import disc_corner_area, quadrant_depth, radial_depth
 from subslide.solver import solve

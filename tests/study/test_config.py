@@ -4,8 +4,8 @@ import re
 
 import pytest
 
-from subslide import figures
-from subslide.keys import schema
+from subslide import catalogue
+from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
 from subslide.pages import documentation as docs
 from subslide.points import RUN_KEYS, Point
@@ -202,7 +202,7 @@ def test_defaults_of_points_are_those_of_the_schema():
 def test_every_key_is_described():
     for key, about in schema.properties().items():
         assert about["description"]
-        assert schema.allowed(key)
+        assert words.allowed(key)
         assert "default" in about or key == "study"
 
 
@@ -214,7 +214,7 @@ def test_the_papers_study_has_its_fifteen_runs_twice_and_their_companions(root):
     assert {(p.a_2, p.delta, p.radius) for p in study.points} == {(0.56, 32, 0.0705)}
     assert {label for label, _ in study.runs} == {"paper", "resolved"}
     assert (len(study.runs), len(study.solved)) == (30, 90)
-    assert study.figures == tuple(name for name in figures.names() if name.startswith("fig"))
+    assert study.figures == tuple(name for name in catalogue.names("figures") if name.startswith("fig"))
 
 
 def test_every_study_of_the_repository_is_valid(root):
@@ -228,8 +228,8 @@ def test_generated_pages_are_current(root):
 
 
 def test_every_figure_says_what_it_is():
-    for name in figures.names():
-        about = figures.about(name)
+    for name in catalogue.names("figures"):
+        about = catalogue.figure(name)
         assert about.title != name
         assert about.category
         assert set(about.needs) <= set(RUN_KEYS)

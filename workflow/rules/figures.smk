@@ -22,8 +22,8 @@ for name in STUDY.figures:
             report(
                 RESULTS / f"figures/{name}.png",
                 caption=caption(name),
-                category=figures.about(name).category,
-                labels={"figure": figures.about(name).title},
+                category=catalogue.figure(name).category,
+                labels={"figure": catalogue.figure(name).title},
             ),
             RESULTS / f"figures/{name}.svg",
         log:

@@ -3,22 +3,21 @@
 import importlib
 from pathlib import Path
 
-from subslide import figures
+from subslide import catalogue
 from subslide.files import replacing
-from subslide.keys import schema
+from subslide.keys import words
 from subslide.keys.schema import ConfigError
 
 
 def save(name: str, results: Path, output: Path) -> list[Path]:
     """Paths of the PNG and SVG of a figure, the same bytes for the same results.
 
-    name: one of `figures.names()`; results: folder of the study; output: folder of the files.
+    name: one of those in this folder; results: folder of the study; output: folder of the files.
     """
-    if name not in figures.names():
-        hint = schema.closest(name, figures.names())
-        raise ConfigError(
-            f"figure: {name} is not allowed; allowed: {', '.join(figures.names()) or 'none'}{hint}"
-        )
+    known = catalogue.names("figures")
+    if name not in known:
+        hint = words.closest(name, known)
+        raise ConfigError(f"figure: {name} is not allowed; allowed: {', '.join(known) or 'none'}{hint}")
     if not (results / "tables" / "runs.csv").is_file():
         raise ConfigError(
             f"--results: {results} has no tables/runs.csv; allowed: the folder of a finished study"

@@ -2,9 +2,9 @@
 
 import math
 
-from subslide.fields import FRONT_THRESHOLDS
 from subslide.kernels import measures
 from subslide.kernels.jit import inlined
+from subslide.naming import FRONT_THRESHOLDS
 
 TIME = 0
 FRONT = 1

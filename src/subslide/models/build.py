@@ -11,19 +11,20 @@ from subslide.keys import names
 from subslide.models.axial import Axial
 from subslide.models.grid import make_grid
 from subslide.models.plane import Plane
-from subslide.study.choice import geometry, needs_general
+from subslide.points import Point
+from subslide.study import choice
 
 
-def settings_of(point, layers, dx, dry_depth):
-    """Return the scaled numbers and choices of a point (`kernels.arrays.Settings`) in its working precision.
+def settings_of(point: Point, layers: int, dx: float, dry_depth: float) -> Settings | GeneralSettings:
+    """Return the scaled numbers and choices of a point in its working precision.
 
     Parameters
     ----------
-    point : Point
+    point
         The run.
-    layers : int
+    layers
         1 for grains alone.
-    dx, dry_depth : float
+    dx, dry_depth
         Cell size over R; depth over H2 below which a layer counts as dry.
     """
     real = np.dtype(point.dtype).type
@@ -35,7 +36,7 @@ def settings_of(point, layers, dx, dry_depth):
         scheme=viscosity.FLAGS[point.scheme],
         order=point.order,
         r=real(point.r),
-        m=real(mu / point.a_2),
+        m=real(point.friction_number),
         dx=real(dx),
         cfl=real(point.cfl),
         dry_depth=real(dry_depth),
@@ -46,24 +47,32 @@ def settings_of(point, layers, dx, dry_depth):
         **dict(zip(("law_1", "law_2", "law_3"), law, strict=True)),
         treatment=hyperbolicity.FLAGS[point.treatment],
         as_printed=printed.FLAGS[point.as_printed],
-        printed_bound=real((1 - point.r) * mu * math.sqrt(point.g / (point.a_2 * point.radius))),
+        printed_bound=real((1 - point.r) * mu * math.sqrt(point.g / point.column_height)),
         viscous_friction=int(point.friction_in_viscosity),
     )
-    return GeneralSettings(*settings, general=1) if needs_general(point) else settings
+    return GeneralSettings(*settings, general=1) if choice.of(point).general else settings
 
 
-def build(point, model, box, watched, dry_depth):
-    """Return the model in its initial state.
+def build(point: Point, box: int, watched: int, dry_depth: float) -> Axial | Plane:
+    """Return the model of a point in its initial state.
 
-    box, watched: cells from the axis to the end of the box and of the region where the surface is watched.
+    Parameters
+    ----------
+    point
+        The run; how it is solved follows from it (`study.choice`).
+    box, watched
+        Cells from the axis to the end of the box, and of the region where the surface is watched.
+    dry_depth
+        Depth over H2 below which a layer counts as dry.
     """
     real = np.dtype(point.dtype).type
-    dx = 0.6 / point.cells / 0.0705
-    grid = make_grid(geometry(model, point), dx, box)
+    model, geometry, *_ = choice.of(point)
+    dx = point.scaled_dx
+    grid = make_grid(geometry, dx, box)
     state = scenes.load(point.scene).initial(grid, point)
     alone = model == "one-layer"
     settings = settings_of(point, 1 if alone else 2, dx, dry_depth)
-    level = real(1.0 + point.a_H)
+    level = real(point.scaled_level)
     axial = grid.geometry in ("radius", "line")
     shape = (len(grid.centres),) * (1 if axial else 2)
     flat = np.ptp(state.h1 + state.h2) == 0

@@ -1,7 +1,7 @@
 """Pages of documentation that follow from the code, so that each fact has one place."""
 
-from subslide import fields, scenes
-from subslide.keys import schema
+from subslide import naming, scenes
+from subslide.keys import published, schema, words
 from subslide.records import thinning
 from subslide.tables import _convergence as convergence
 from subslide.tables import atlas, bands, cheapest, claims, errors, work_precision
@@ -9,10 +9,11 @@ from subslide.tables import cfl as courant
 from subslide.tables import runs as tables
 
 CONFIG_PAGE, TABLES_PAGE, RECORDS_PAGE = "config/README.md", "docs/tables.md", "docs/records.md"
+SCHEMA_PAGE = "config/study.schema.json"
 
 CONFIG_TEXT = """# Studies
 
-<!-- written by `make docs` from src/subslide/config.schema.json and src/subslide/scenes -->
+<!-- written by `make docs` from src/subslide/keys/entries.py and src/subslide/scenes -->
 
 One YAML file is one study. Run it with
 
@@ -20,6 +21,14 @@ One YAML file is one study. Run it with
 
 or, in the virtual environment that `make setup` makes, `snakemake --configfile config/mine.yaml --cores 2`.
 Results go to `results/<study>/`. Without a file Snakemake runs `config/paper.yaml`; files are never merged.
+
+An editor that knows YAML completes and checks a file that begins with
+
+```yaml
+# yaml-language-server: $schema=study.schema.json
+```
+
+and lies beside config/study.schema.json, a JSON Schema of all that follows.
 
 Keys are flat. A key that is marked as an axis takes one value or a list; the runs are the product of all lists, and a
 point that comes up twice runs once. `subslide check config/mine.yaml` tells what a file holds, or what is wrong.
@@ -85,7 +94,7 @@ does not have. Runs that failed are rows too: see `status`.
 
 RECORDS_TEXT = """# Records
 
-<!-- written by `make docs` from src/subslide/fields.py -->
+<!-- written by `make docs` from src/subslide/naming.py -->
 
 `subslide run` writes one run, a study one file for each batch of runs, in one layout (NetCDF-4, CF-1.11): every
 variable of a run has the dimension `run`, of length 1 for a single run. Runs that are shorter, or lie in a smaller box,
@@ -111,18 +120,19 @@ def pages() -> dict[str, str]:
         CONFIG_PAGE: CONFIG_TEXT + keys() + presets() + all_scenes(),
         TABLES_PAGE: TABLES_TEXT + columns(),
         RECORDS_PAGE: RECORDS_TEXT + variables(),
+        SCHEMA_PAGE: published.text({name: scenes.load(name).OPTIONS for name in scenes.NAMES}),
     }
 
 
 def variables() -> str:
     """Tables (Markdown) of the statuses and the variables of a record."""
-    lines = [f"- `{name}`: {text}" for name, text in fields.STATUSES.items()]
+    lines = [f"- `{name}`: {text}" for name, text in naming.STATUSES.items()]
     parts = {
-        "Series, a sample each time step": fields.SERIES,
-        "Profiles along the x axis, at each snapshot": fields.PROFILES,
-        "Fields, at each snapshot (`fields: true`, in the plane)": fields.FIELDS_2D,
-        "A value a run": {**fields.PARAMETERS, **fields.SCALARS},
-        "Coordinates": fields.COORDINATES,
+        "Series, a sample each time step": naming.SERIES,
+        "Profiles along the x axis, at each snapshot": naming.PROFILES,
+        "Fields, at each snapshot (`fields: true`, in the plane)": naming.FIELDS_2D,
+        "A value a run": naming.SCALARS,
+        "Coordinates": naming.COORDINATES,
     }
     for title, table in parts.items():
         lines += ["", f"## {title}", "", "| name | dimensions | unit | meaning |", "|---|---|---|---|"]
@@ -137,9 +147,9 @@ def keys() -> str:
     """Table (Markdown) of all keys of a study."""
     rows = ["| key | meaning | unit | default | allowed | axis |", "|---|---|---|---|---|---|"]
     for key, about in schema.properties().items():
-        default = schema.show(about["default"]) if "default" in about else "needed"
+        default = words.show(about["default"]) if "default" in about else "needed"
         axis = "yes" if schema.is_axis(key) else ""
-        entries = (f"`{key}`", about["description"], schema.unit(key), default, schema.allowed(key), axis)
+        entries = (f"`{key}`", about["description"], words.unit(key), default, words.allowed(key), axis)
         rows.append("| " + " | ".join(entries) + " |")
     return "\n".join(rows) + "\n"
 
@@ -166,13 +176,13 @@ def _scene(name: str) -> str:
     if module.OPTIONS:
         lines += ["| option | meaning | unit | default | allowed |", "|---|---|---|---|---|"]
     for option, about in module.OPTIONS.items():
-        default = schema.show(about["default"]) if "default" in about else "needed"
+        default = words.show(about["default"]) if "default" in about else "needed"
         entries = (
             f"`{option}`",
             about["description"],
-            schema.unit_of(about),
+            words.unit_of(about),
             default,
-            schema.range_of(about),
+            words.range_of(about),
         )
         lines.append("| " + " | ".join(entries) + " |")
     return "\n".join(lines) + ("\n" if module.OPTIONS else "")
@@ -183,7 +193,7 @@ def columns() -> str:
     quantities = {**{f"x_front_{t}": ("m", f"x_front at the {t[:-2]} % front") for t in tables.THRESHOLDS}}
     quantities.update(
         (name, (field.unit if field.unit != "1" else "", field.long_name))
-        for name, field in fields.SERIES.items()
+        for name, field in naming.SERIES.items()
         if name != "x_front"
     )
     return "\n".join(

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import pandas as pd
 
+from subslide import scenes
 from subslide.keys.schema import ConfigError
 from subslide.pages import renewal as marks
 from subslide.tables import errors
@@ -84,7 +85,7 @@ def line(rows: pd.DataFrame) -> Line:
 
 def case(row) -> str:
     """Name of a row's scene, model and options that are not at their defaults."""
-    defaults = errors.defaults(row.scene)
+    defaults = scenes.defaults(row.scene)
     told = [
         value if isinstance(value, str) else f"{name} {value:g}"
         for name, value in json.loads(row.options).items()

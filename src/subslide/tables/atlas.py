@@ -18,7 +18,7 @@ import xarray as xr
 
 from subslide import exact
 from subslide.files import write_text
-from subslide.keys import schema
+from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS, Point, from_dict, options_text
 from subslide.results import Results, trimmed
@@ -48,7 +48,7 @@ GAINED = 0.1
 COLUMNS = {
     "id": ("", "name of the run"),
     **{
-        key: (schema.unit(key), schema.properties()[key]["description"])
+        key: (words.unit(key), schema.properties()[key]["description"])
         for key in RUN_KEYS
         if key not in ASIDE
     },

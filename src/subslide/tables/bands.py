@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from subslide import fields
+from subslide import naming
 from subslide.points import Point
 from subslide.tables import _convergence as convergence
 
-THRESHOLDS = {f"{100 * fraction:g}pc": n for n, fraction in enumerate(fields.FRONT_THRESHOLDS)}
+THRESHOLDS = {f"{100 * fraction:g}pc": n for n, fraction in enumerate(naming.FRONT_THRESHOLDS)}
 WAVES = ("max_abs_eta", "max_abs_eta_outside")
 ONCE = (*(f"L_f_{t}" for t in THRESHOLDS), *(f"{name}_peak" for name in WAVES))
 """Quantities of a run as a whole; the others are taken at the times of its snapshots."""

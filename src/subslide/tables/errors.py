@@ -133,11 +133,6 @@ def run_rows(point: Point, run: xr.Dataset) -> Iterator[dict]:
             }
 
 
-def defaults(scene: str) -> dict:
-    """Options of a scene that its exact solution assumes where a point leaves them out."""
-    return getattr(exact.load(scene), "DEFAULTS", {})
-
-
 def expected(point: Point, model: str) -> tuple[float, bool]:
     """Least expected order of a run (NaN if none), and whether verification requires it."""
     for key in (f"{point.scene} {model}", point.scene):

@@ -13,10 +13,10 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from subslide import fields
+from subslide import naming
 from subslide.files import replacing, write_text
-from subslide.keys import schema
-from subslide.points import PAPER_BOX, RUN_KEYS, Point, friction_number, from_dict, options_text
+from subslide.keys import schema, words
+from subslide.points import PAPER_BOX, RUN_KEYS, Point, from_dict, options_text
 from subslide.results import Results, trimmed
 from subslide.study.config import COARSENING
 from subslide.tables import bands
@@ -28,14 +28,14 @@ COLUMNS = {
     "id": ("", "name of the run; depends on its values alone"),
     "numerics": ("", "named set of numerics that the study asked for"),
     **{
-        key: (schema.unit(key), schema.properties()[key]["description"])
+        key: (words.unit(key), schema.properties()[key]["description"])
         for key in RUN_KEYS
         if key != "snapshot_times"
     },
     "m": ("", "tan(delta)/a_2: with a_H and r, all that the scaled answer depends on"),
     "resolved_model": ("", "geometry that was solved; `model` is what was asked for"),
     "dx": ("m", "cell size"),
-    "status": ("", "how the run ended: " + "; ".join(f"`{k}`: {v}" for k, v in fields.STATUSES.items())),
+    "status": ("", "how the run ended: " + "; ".join(f"`{k}`: {v}" for k, v in naming.STATUSES.items())),
     "status_detail": ("", "what ended the run, in words"),
     "steps": ("", "number of time steps"),
     "time_at_rest": (
@@ -78,7 +78,7 @@ TIMING = {
     "cells_in_box": ("", "cells of the box at the end"),
     "cell_updates_per_second": ("s-1", "cells times steps over wall time"),
 }
-QUANTITIES = (*(f"x_front_{t}" for t in THRESHOLDS), *(name for name in fields.SERIES if name != "x_front"))
+QUANTITIES = (*(f"x_front_{t}" for t in THRESHOLDS), *(name for name in naming.SERIES if name != "x_front"))
 
 
 def write(folder: Path) -> list[Path]:
@@ -136,7 +136,7 @@ def run_row(row: dict, run: xr.Dataset) -> dict:
     point = _point(row)
     found = {key: row[key] for key in ("id", "numerics", *RUN_KEYS) if key != "snapshot_times"}
     found["scene_options"] = options_text(point)
-    found.update(m=friction_number(point), resolved_model=str(run["model"].values))
+    found.update(m=point.friction_number, resolved_model=str(run["model"].values))
     for name in ("dx", "steps", "time_at_rest", "box_half_width", "status", "status_detail"):
         found[name] = run[name].item()
     for label, n in THRESHOLDS.items():

@@ -12,7 +12,7 @@ from subslide.kernels.jit import inlined
 def scaled(point):
     """Return (tan(delta_2) - tan(delta)) / a_2, and H2 / l."""
     rise = math.tan(math.radians(point.delta_2)) - math.tan(math.radians(point.delta))
-    return rise / point.a_2, point.a_2 * point.radius / point.pouliquen_length
+    return rise / point.a_2, point.column_height / point.pouliquen_length
 
 
 @inlined

@@ -8,7 +8,7 @@ from subslide.kernels.jit import inlined
 
 def scaled(point):
     """Return g / (xi a_2), the turbulence in scaled variables."""
-    return (point.g / (point.xi * point.a_2),)
+    return (point.turbulence,)
 
 
 @inlined

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from subslide.fields import FRONT_THRESHOLDS
+from subslide.naming import FRONT_THRESHOLDS
 from subslide.points import RUN_KEYS, paper_times
 
 THRESHOLDS = tuple(f"{100 * fraction:g}pc" for fraction in FRONT_THRESHOLDS)
