@@ -74,7 +74,7 @@ def test_a_step_gives_back_energy_in_proportion_to_dx_at_most(scheme, case):
     geometry, order = case
     for cells in (50, 100, 200):
         for r, a_H, m in STATES:
-            options = {"order": order, "r": r, "friction": friction}
+            options = {"order": order, "r": r, "m": m}
             energy = energies(cells, a_H, scheme, geometry == "radius", **options)
             given_back = np.diff(energy).max() / (energy[0] - energy[-1])
             assert given_back <= GIVEN_BACK[case][scheme] * 4.2 / cells
