@@ -62,7 +62,7 @@ $(READY): requirements.lock pyproject.toml
 	$(PIP) --no-deps --no-build-isolation --editable .
 	@touch $@
 
-docs: $(READY)  ## write the pages that follow from the code: config/README.md, docs/tables.md, docs/records.md
+docs: $(READY)  ## write what follows from the code: config/README.md, config/study.schema.json, docs/tables.md, docs/records.md
 	$(BIN)/subslide docs
 
 clean:  ## remove the virtual environment and caches, but no results

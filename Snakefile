@@ -5,7 +5,7 @@ from snakemake.exceptions import WorkflowError
 
 from subslide import catalogue, source_hash, tables
 from subslide.keys.schema import ConfigError
-from subslide.study import batches as ledger
+from subslide.study import batches
 from subslide.study.config import make_study
 
 if not workflow.overwrite_configfiles:  # never merged with a file that the user gives
@@ -19,7 +19,7 @@ except ConfigError as error:
     raise WorkflowError(f"configuration: {error}") from None
 
 RESULTS = Path("results", STUDY.name)
-PLAN = ledger.plan(STUDY, RESULTS, extend=workflow.is_main_process)
+PLAN = batches.plan(STUDY, RESULTS, extend=workflow.is_main_process)
 
 
 include: "workflow/rules/solve.smk"

@@ -63,6 +63,8 @@ class Traced:
         self.shape = values.shape
 
     def __getitem__(self, index):
+        if self.values.ndim == 2 and not isinstance(index, tuple):
+            return Traced(self.values[index], self.name, self.reads, self.writes)
         self.reads.add(self.name)
         return Number(self.values[index])
 
@@ -80,24 +82,25 @@ def traced(kind, shape, prefix, reads, writes, fill):
     )
 
 
-def scene(order):
+def settings(order):
     """Return the scaled numbers of the paper's column, those that are not flags counting."""
     from subslide.models.build import build
     from subslide.points import Point
 
-    found = build(Point(model="radial", order=order), "radial", 100, 100, 1e-6).scene
+    found = build(Point(model="radial", order=order), 100, 100, 1e-6).settings
     return type(found)(*(Number(value) if isinstance(value, float) else value for value in found))
 
 
 def edge_counts():
     """Return the operations of one wet edge."""
-    from subslide.kernels.edge import edge_fluxes
+    from subslide.kernels.edge.roe_matrix import Normal
+    from subslide.kernels.edge.two_layers import edge_fluxes
 
     w_i = [Number(x) for x in (1.2, 0.1, 0.7, 0.3)]
     w_j = [Number(x) for x in (1.3, -0.2, 0.5, 0.1)]
     bounds = Number(-1.6), Number(1.7)
     counted.clear()
-    edge_fluxes(scene(1), False, *bounds, *w_i, *w_j, Number(-0.1))
+    edge_fluxes(settings(1), False, *bounds, Normal(*w_i), Normal(*w_j), Number(-0.1))
     return dict(counted)
 
 
@@ -112,7 +115,19 @@ def step_counts(order, n=6):
 
     from subslide.kernels import planar, planar_faces
     from subslide.kernels.active import LAST, SPANS, WET_LAST
-    from subslide.kernels.arrays import GHOSTS, Cells, Fluxes, Marks, Side
+    from subslide.kernels.advance_planar import row_fluxes
+    from subslide.kernels.arrays import (
+        BEFORE,
+        GHOSTS,
+        Cells,
+        CellTerms,
+        Fluxes,
+        Side,
+        flux_row,
+        row_of,
+        side_row,
+        side_row_turned,
+    )
 
     reads, writes = set(), set()
     values = {
@@ -131,8 +146,8 @@ def step_counts(order, n=6):
         return traced(kind, shape, prefix, reads, writes, lambda field: values.get(field, 0.1))
 
     padded = (n + 2 * GHOSTS,) * 2
-    s = scene(order)
-    c, mk = arrays(Cells, padded, "cell"), arrays(Marks, padded, "mark")
+    s = settings(order)
+    c, terms = arrays(Cells, padded, "cell"), arrays(CellTerms, padded, "term")
     fx, fy = arrays(Fluxes, (n, n + 1), "x"), arrays(Fluxes, (n + 1, n), "y")
     spans = np.zeros((padded[0], SPANS), np.int64)
     spans[:, [LAST, WET_LAST]] = padded[1]  # every cell moves and has grains
@@ -143,24 +158,25 @@ def step_counts(order, n=6):
     else:
         left, right, lower, upper = (arrays(Side, (2, padded[1]), "cache") for _ in range(4))
         old, now = 1, 0
-    along_x, along_y = ((row, row), GHOSTS - 1, 1), ((row - 1, row), GHOSTS, 0)
+    whole = (0, n)
 
     def fluxes():
         if order != 1:
-            planar_faces.faces(s, c, mk, row, left, right, lower, upper, now, now, 0, n, dt)
-        rows, shift, step = along_x
-        planar.fill_stuck(s, c, fx.stuck, j, rows, shift, step, 0, n, dt)
-        planar.edges(s, fx, j, c.slow_x, c.fast_x, rows, right, left, (now, now), shift, step, 0, n)
-        rows, shift, step = along_y
-        below, above = planar.turned(upper), planar.turned(lower)
-        planar.fill_stuck(s, c, fy.stuck, j, rows, shift, step, 0, n, dt)
-        planar.edges(s, fy, j, c.slow_y, c.fast_y, rows, below, above, (old, now), shift, step, 0, n)
+            planar_faces.faces(s, c, terms, row, (left, right, lower, upper), now, now, 0, n, dt)
+        planar.fill_stuck(s, c, fx.stuck[j], (row, row), BEFORE, 1, 0, n, dt)
+        slow, fast = (c.slow_x[row],) * 2, (c.fast_x[row],) * 2
+        before, after = side_row(right, now), side_row(left, now)
+        row_fluxes(s, flux_row(fx, j), slow, fast, before, after, BEFORE, 1, whole, whole)
+        planar.fill_stuck(s, c, fy.stuck[j], (row - 1, row), GHOSTS, 0, 0, n, dt)
+        slow, fast = (c.slow_y[row - 1], c.slow_y[row]), (c.fast_y[row - 1], c.fast_y[row])
+        before, after = side_row_turned(upper, old), side_row_turned(lower, now)
+        row_fluxes(s, flux_row(fy, j), slow, fast, before, after, GHOSTS, 0, whole, whole)
 
     parts = {
-        "survey": lambda: planar.cell_speeds(s, c, row, 0, n),
+        "survey": lambda: planar.cell_speeds(s, row_of(c, row), 0, n),
         "fluxes": fluxes,
-        "marks": lambda: planar.marks(s, c, fx, fy, mk, spans, j, dt),
-        "update": lambda: planar.update(s, c, fx, fy, mk, spans, j, dt),
+        "terms": lambda: planar.fill_terms(s, c, fx, fy, terms, spans, j, dt),
+        "update": lambda: planar.update(s, c, fx, fy, terms, spans, j, dt),
     }
     found = {}
     for name, work in parts.items():

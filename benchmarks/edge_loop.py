@@ -2,7 +2,8 @@
 
 from numba import prange
 
-from subslide.kernels.edge import edge_fluxes
+from subslide.kernels.edge.roe_matrix import Normal
+from subslide.kernels.edge.two_layers import edge_fluxes
 from subslide.kernels.jit import inlined, launch, part
 
 BLOCK = 4096
@@ -11,7 +12,7 @@ BLOCK = 4096
 
 @launch
 def edge_loop(s, e, out):
-    """Fill the six fluxes `out` (reference.EdgeFluxes) of the edges `e` (reference.Edges) in the scene `s`."""
+    """Fill the six fluxes `out` (reference.EdgeFluxes) of the edges `e` (reference.Edges) with the settings `s`."""
     n = e.h1_i.shape[0]
     blocks = (n + BLOCK - 1) // BLOCK
     for b in prange(blocks):
@@ -31,13 +32,7 @@ def edges(s, e, out, first, last):
             e.stuck[k] != zero,
             e.slowest[k],
             e.fastest[k],
-            e.h1_i[k],
-            e.u1_i[k],
-            e.h2_i[k],
-            e.u2_i[k],
-            e.h1_j[k],
-            e.u1_j[k],
-            e.h2_j[k],
-            e.u2_j[k],
+            Normal(e.h1_i[k], e.u1_i[k], e.h2_i[k], e.u2_i[k]),
+            Normal(e.h1_j[k], e.u1_j[k], e.h2_j[k], e.u2_j[k]),
             e.d_eta[k],
         )

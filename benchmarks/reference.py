@@ -103,14 +103,14 @@ def fluxes_like(edges):
     return allocate(EdgeFluxes, edges.stuck.shape, edges.stuck.dtype.type)
 
 
-def scene_of(edges):
+def settings_of(edges):
     """Return the scaled numbers of the paper's column in the precision of the edges."""
-    return build(Point(model="radial", dtype=edges.stuck.dtype.name), "radial", 100, 100, DRY_DEPTH).scene
+    return build(Point(model="radial", dtype=edges.stuck.dtype.name), 100, 100, DRY_DEPTH).settings
 
 
 def c_reference(edges, out):
     """Return a function that fills `out` by the C reference."""
-    scene = scene_of(edges)
+    settings = settings_of(edges)
     dtype = edges.stuck.dtype.name
     real, address = CTYPES[dtype], ctypes.POINTER(CTYPES[dtype])
     function = library("reference.c", dtype).edge_fluxes
@@ -127,15 +127,15 @@ def c_reference(edges, out):
     outputs = (address * len(out))(*(pointer(array, dtype) for array in out))
 
     def fill(edges=edges, out=out):  # holds the arrays
-        function(len(edges.stuck), scene.r, scene.dry_depth, scene.exact_front, inputs, outputs)
+        function(len(edges.stuck), settings.r, settings.dry_depth, settings.exact_front, inputs, outputs)
 
     return fill
 
 
 def numba_reference(edges, out):
     """Return a function that fills `out` by the solver's edge function."""
-    scene = scene_of(edges)
-    return lambda: edge_loop(scene, edges, out)
+    settings = settings_of(edges)
+    return lambda: edge_loop(settings, edges, out)
 
 
 def disagreement(dtype, n=20_000, seed=0):

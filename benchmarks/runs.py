@@ -12,10 +12,11 @@ from reference import PLANE, c_reference, fluxes_like, numba_reference, plane_ed
 from table import rows_of
 from timing import rate_of, ratio, spread, take_turns
 
-from subslide.kernels.viscosity import SCHEMES
-from subslide.models.build import build, needs_general
+from subslide.keys.names import SCHEMES
+from subslide.models.build import build
 from subslide.points import Point
 from subslide.solver import DRY_DEPTH, solve
+from subslide.study import choice
 
 END = 0.54
 """Last time of the paper's figures (s)."""
@@ -139,7 +140,7 @@ def all_cases(dtypes):
 def is_lean(case):
     """Return whether a case needs no kernels but those that the paper's scheme needs: others take long to compile."""
     model, order, scheme, dtype, cells = case
-    return not needs_general(point_of(model, order, dtype, cells, scheme))
+    return not choice.of(point_of(model, order, dtype, cells, scheme)).general
 
 
 def growth(rows):
@@ -164,7 +165,7 @@ def memory(dtypes):
     for model, dtype in itertools.product(EDGES_PER_CELL, dtypes):
         point = point_of(model, 2, dtype)
         half = -(-point.cells // 2)
-        held = build(point, model, half, half, DRY_DEPTH)
+        held = build(point, half, half, DRY_DEPTH)
         cells = len(held.x) ** held.dimensions if model in ("plane", "quarter") else len(held.x)
         total = sum(array.nbytes for array in arrays_in(vars(held)))
         rows += rows_of(

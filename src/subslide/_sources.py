@@ -6,7 +6,7 @@ import hashlib
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent
-COMPILED = ("kernels", "fields.py")
+COMPILED = ("kernels", "naming.py", "keys/names.py")
 """Rooms whose code is compiled, or is read by code that is."""
 
 JUDGING = ("results.py", "exact", "laboratory", "tables")
@@ -89,7 +89,7 @@ def _belongs(source: Path, part: str, name: str) -> bool:
     """Return whether a source file, by its path within the package, counts for a part."""
     room = source.parts[0]
     if part == "solver":
-        return room in COMPILED
+        return room in COMPILED or source.as_posix() in COMPILED
     if room in SHOWING:
         return part == "figure" and room == "figures" and (source.stem.startswith("_") or source.stem == name)
     if part == "record":

@@ -29,8 +29,7 @@ class Table(NamedTuple):
     kernels: tuple[str, ...]
 
 
-@functools.cache
-def names(room: str) -> tuple[str, ...]:
+def names(room: str) -> list[str]:
     """Return the names of the plug-ins in a room.
 
     Parameters
@@ -40,10 +39,10 @@ def names(room: str) -> tuple[str, ...]:
 
     Returns
     -------
-    tuple of str
+    list of str
         Names of the files without '.py', sorted.
     """
-    return tuple(sorted(path.stem for path in (PACKAGE / room).glob("[a-z]*.py")))
+    return sorted(path.stem for path in (PACKAGE / room).glob("[a-z]*.py"))
 
 
 @functools.cache

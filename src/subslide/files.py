@@ -1,10 +1,13 @@
-"""Files that are either whole or not there."""
+"""Files that are either whole or not there, and the hashes of their bytes."""
 
 import contextlib
+import hashlib
 import json
 import os
 import uuid
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 
 class RecordError(Exception):
@@ -12,8 +15,8 @@ class RecordError(Exception):
 
 
 @contextlib.contextmanager
-def replacing(path: Path | str):
-    """Give a temporary path beside `path`, and move it there once the block has ended well.
+def replacing(path: Path | str) -> Iterator[Path]:
+    """Give a temporary path beside `path` to a block, and move it to `path` once the block has ended well.
 
     The data are on the disk before the name changes; after an error neither file is left behind.
     """
@@ -29,13 +32,13 @@ def replacing(path: Path | str):
 
 
 def write_text(path: Path | str, text: str) -> None:
-    """Write a text, or leave the file as it was."""
+    """Write a text to a file, whole or not at all."""
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
 
-def write_json(path: Path | str, value) -> None:
-    """Write a value as JSON; a file that holds it already is not touched."""
+def write_json(path: Path | str, value: Any) -> None:
+    """Write a value as JSON to a file, whole or not at all; a file that holds it already is not touched."""
     text = json.dumps(value, indent=1, allow_nan=False) + "\n"
     with contextlib.suppress(OSError, UnicodeDecodeError):
         if Path(path).read_text(encoding="utf-8") == text:
@@ -43,8 +46,14 @@ def write_json(path: Path | str, value) -> None:
     write_text(path, text)
 
 
+def file_hash(path: Path | str) -> str:
+    """Return the SHA-256 (hex) of a file's bytes, as `sha256sum` prints it."""
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
 def _sync(path: Path) -> None:
-    """Wait until a file or folder is on the disk."""
+    """Wait until a file, or the names in a folder, are on the disk."""
     handle = os.open(path, os.O_RDONLY)
     try:
         os.fsync(handle)

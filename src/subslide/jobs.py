@@ -3,37 +3,31 @@
 Only numpy, numba and netCDF4 are imported here, and late: start-up is most of a radial run's time.
 """
 
-import hashlib
-import json
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from subslide import scenes
-from subslide.files import write_text
+from subslide.files import file_hash, write_text
 from subslide.keys import schema
 from subslide.keys.schema import ConfigError
-from subslide.points import Point, from_dict
+from subslide.points import Point
 from subslide.study import config, scene_options
-from subslide.study.choice import model_reason
+from subslide.study.batches import read_batch
 from subslide.study.yaml_files import read_yaml
+
+if TYPE_CHECKING:
+    from subslide.solver import Run
 
 
 def point_of(path: str | None, options: dict[str, str]) -> Point:
-    """Return the point of a configuration file and of options.
-
-    Parameters
-    ----------
-    path
-        YAML file of one point, or None.
-    options
-        Texts by key; they win over the file.
+    """Return the point of a configuration file, if any, and of options (texts by key), which win.
 
     Raises
     ------
     ConfigError
-        If a key or value is not allowed, or the point is no run.
+        If the file or an option is wrong: one line that names it.
     """
     values = read_yaml(path) if path else {}
     names = {key: f"{path}: {key}" for key in values}
@@ -47,7 +41,7 @@ def point_of(path: str | None, options: dict[str, str]) -> Point:
 
 
 def check_output(path: str, inputs: list[str]) -> None:
-    """Raise ConfigError unless a file can be written at `path`, which is none of the inputs."""
+    """Raise a ConfigError unless a file can be written at `path`, which is none of the inputs."""
     target = Path(path)
     folder = target.parent
     if target.is_dir():
@@ -71,25 +65,33 @@ def set_threads(threads: int) -> None:
 
 
 def run(point: Point, threads: int, output: str) -> str:
-    """Solve a run, write its record to `output`, and return the line that tells its outcome."""
-    from subslide import solver
+    """Solve a point, write its record to `output` and return the line that tells the outcome."""
     from subslide.records import netcdf as records
 
-    result = solver.solve(point, threads=threads, progress=_progress() if sys.stderr.isatty() else None)
+    result = solved(point, threads, _progress() if sys.stderr.isatty() else None)
     records.write(output, [result])
     return f"{summary(result)} -> {output}"
 
 
-def batch(spec: str, threads: int, output: str) -> Iterator[str]:
-    """Solve a batch file into a record at `output`, its SHA-256 in `output`.sha256; give a line as each run ends."""
+def solved(point: Point, threads: int, progress: Callable[[float], object] | None = None) -> "Run":
+    """Return the run of a point as a record keeps it: a long one thinned, so that a batch fits into memory."""
     from subslide import solver
-    from subslide.records import netcdf as records
     from subslide.records import thinning
+
+    return thinning.thinned(solver.solve(point, threads=threads, progress=progress))
+
+
+def batch(spec: str, threads: int, output: str) -> Iterator[str]:
+    """Solve the points of a batch file and yield a line as each run ends.
+
+    Then its record is at `output`, and the record's SHA-256 in `output`.sha256.
+    """
+    from subslide.records import netcdf as records
 
     points = read_batch(spec)
     results = []
     for point in points:
-        results.append(thinning.thinned(solver.solve(point, threads=threads)))
+        results.append(solved(point, threads))
         yield summary(results[-1])
     Path(output + ".sha256").unlink(missing_ok=True)
     records.write(output, results)
@@ -97,27 +99,8 @@ def batch(spec: str, threads: int, output: str) -> Iterator[str]:
     yield f"{len(results)} runs -> {output}"
 
 
-def read_batch(spec: str) -> list[Point]:
-    """Return the points of a batch file, each checked against its id; ConfigError if it is none."""
-    try:
-        rows = json.loads(Path(spec).read_text(encoding="utf-8"))["points"]
-        points = {row.pop("id"): from_dict(row) for row in rows}
-    except FileNotFoundError:
-        raise ConfigError(f"{spec}: there is no such file") from None
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise ConfigError(f"{spec}: not a batch file ({type(error).__name__}: {error})") from None
-    for name, point in points.items():
-        if point.id != name:
-            raise ConfigError(f"{spec}: the values of {name} belong to {point.id}; was the file edited?")
-        try:
-            scenes.check(point)
-        except scenes.SceneError as error:
-            raise ConfigError(f"{spec}: {name}: {error}") from None
-    return list(points.values())
-
-
 def warm(kernels: tuple[str, ...]) -> Iterator[str]:
-    """Compile kernels, 'model:dtype[:general]', into the cache by solving a tiny run each; give a line for each."""
+    """Compile kernels, named 'model:dtype[:general]', into the cache by a tiny run of each; yield a line for each."""
     from subslide import solver
 
     for kernel in kernels:
@@ -137,13 +120,7 @@ def warm(kernels: tuple[str, ...]) -> Iterator[str]:
         yield f"compiled {kernel}"
 
 
-def file_hash(path: Path | str) -> str:
-    """Return the SHA-256 (hex) of a file's bytes, as `sha256sum` prints it."""
-    with open(path, "rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
-
-
-def summary(result) -> str:
+def summary(result: "Run") -> str:
     """Return one line on a solved run: id, status, deposit, surface, model, steps and time."""
     import numpy as np
 
@@ -158,12 +135,12 @@ def summary(result) -> str:
     if np.isfinite(result.time_at_rest):
         parts.append(f"at rest at {result.time_at_rest:.4g} s")
     parts.append(
-        f"{result.model} ({model_reason(result.point)}), {result.steps} steps in {result.wall_seconds:.3g} s"
+        f"{result.model} ({result.model_reason}), {result.steps} steps in {result.wall_seconds:.3g} s"
     )
     return ", ".join(parts)
 
 
-def _value_of_text(text):
+def _value_of_text(text: Any) -> Any:
     """Return the number, list of numbers or text that the text of an option stands for."""
     if not isinstance(text, str):
         return text
@@ -177,7 +154,7 @@ def _value_of_text(text):
     return text
 
 
-def _progress():
+def _progress() -> Callable[[float], None]:
     """Return a function that shows the fraction done on the terminal, once a run has taken a while."""
     import time
 

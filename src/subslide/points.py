@@ -3,66 +3,75 @@
 import hashlib
 import json
 import math
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import make_dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
-PAPER_RADIUS = 0.0705
+from subslide.keys import schema
+from subslide.keys.entries import ENTRIES
+
+PAPER_RADIUS = ENTRIES["radius"]["default"]
 """Radius (m) of the paper's column."""
+
+PAPER_WIDTH = 0.6
+"""Width (m) of the paper's box, which `cells` parts."""
 
 PAPER_TIMES = (0.08, 0.16, 0.24, 0.54)
 """Times (s) after release at which the paper shows its column."""
 
-
 PAPER_BOX = 0.3 / PAPER_RADIUS
 """Half-width over R of the paper's box, where the water surface is watched in a box of any size."""
 
+RUN_KEYS = schema.run_keys()
+"""Keys that a run has a value of, in the order of tables and axes."""
+
+FLOATS = tuple(key for key in RUN_KEYS if schema.is_real(ENTRIES[key]))
+INTEGERS = tuple(key for key in RUN_KEYS if schema.is_integer(ENTRIES[key]))
+
+STANDS_FOR = {key: ENTRIES[key]["default"] for key in RUN_KEYS if "anyOf" in ENTRIES[key]}
+"""Word, such as 'rest', that None stands for in a point, of each key that takes one beside numbers."""
+
 
 def paper_times(radius: float) -> tuple[float, ...]:
-    """The paper's times (s) for a column of another radius (m), in proportion to its root."""
+    """Return the paper's times (s) for a column of another radius (m), in proportion to its root."""
     return tuple(time * math.sqrt(radius / PAPER_RADIUS) for time in PAPER_TIMES)
 
 
 def edge_time(a_H: float, a_2: float, radius: float, g: float) -> float:
-    """Time (s) when the first wave, from R at sqrt(g (H1 + H2)), is at the edge of the paper's box."""
+    """Return the time (s) when the first wave, from R at sqrt(g (H1 + H2)), is at the edge of the paper's box."""
     return (PAPER_BOX - 1) * radius / math.sqrt(g * a_2 * radius * (1 + a_H))
 
 
-@dataclass(frozen=True)
-class Point:
-    """One run: all that its answer depends on. Lengths in m, times in s, angles in degrees.
+def default_of(key: str) -> Any:
+    """Return the value that a point has of a key by default."""
+    default = ENTRIES[key]["default"]
+    if key in STANDS_FOR:
+        return None
+    if isinstance(default, dict):
+        return tuple(default.items())
+    return float(default) if key in FLOATS else default
 
-    scene_options are sorted pairs of name and value. t_end None means until rest; snapshot_times None means the
-    paper's times, scaled by sqrt(radius).
+
+if TYPE_CHECKING:
+
+    class Values:
+        """Values of a run by key: whatever has an entry in `subslide.keys.entries`."""
+
+        def __init__(self, **values: Any) -> None: ...
+        def __getattr__(self, key: str) -> Any: ...
+
+else:
+    Values = make_dataclass("Values", [(key, Any, default_of(key)) for key in RUN_KEYS], frozen=True)
+
+
+class Point(Values):
+    """One run: all that its answer depends on, a value for each of `RUN_KEYS`, and what follows from them.
+
+    Lengths are in m, times in s, angles in degrees; what is scaled is so by R along x, H2 = a_2 R for depths, and
+    sqrt(g H2) for speeds. A point cannot be changed; `dataclasses.replace` makes another one. ``scene_options`` are
+    sorted pairs of name and value. Where a key takes a word beside numbers, None stands for the word: a ``t_end`` of
+    None means until rest, ``snapshot_times`` of None the paper's times, scaled by sqrt(R).
     """
-
-    a_H: float = 1.0
-    a_2: float = 0.56
-    r: float = 0.4
-    delta: float = 32.0
-    radius: float = PAPER_RADIUS
-    g: float = 9.81
-    scene: str = "cylinder"
-    scene_options: tuple[tuple[str, float | str], ...] = ()
-    quantities: str = "all"
-    friction: str = "coulomb"
-    xi: float = 500.0
-    delta_2: float = 42.0
-    pouliquen_length: float = 0.005
-    model: str = "auto"
-    scheme: str = "ifcph"
-    front_flux: str = "exact"
-    wave_speeds: str = "exact"
-    treatment: str = "real"
-    as_printed: str = "none"
-    friction_in_viscosity: bool = True
-    order: int = 2
-    cells: int = 200
-    dtype: str = "float64"
-    cfl: float = 0.9
-    boundary: str = "open"
-    t_end: float | None = None
-    snapshot_times: tuple[float, ...] | None = None
-    fields: bool = False
 
     @cached_property
     def id(self) -> str:
@@ -70,61 +79,115 @@ class Point:
         return "p" + hashlib.sha256(canonical(self).encode()).hexdigest()[:12]
 
     @property
+    def column_height(self) -> float:
+        """Height H2 (m) of the column."""
+        return self.a_2 * self.radius
+
+    @property
+    def scaled_level(self) -> float:
+        """Height of the undisturbed water surface over H2."""
+        return 1.0 + self.a_H
+
+    @property
+    def level(self) -> float:
+        """Height (m) of the undisturbed water surface, H1 + H2."""
+        return (1 + self.a_H) * self.a_2 * self.radius
+
+    @property
+    def time_scale(self) -> float:
+        """Time (s) sqrt(R / (g a_2)), that of scaled time 1."""
+        return math.sqrt(self.radius / (self.g * self.a_2))
+
+    @property
+    def speed_scale(self) -> float:
+        """Speed (m/s) sqrt(g H2), that of scaled speed 1."""
+        return math.sqrt(self.g * self.a_2 * self.radius)
+
+    @property
+    def wave_speed(self) -> float:
+        """Speed (m/s) sqrt(g (H1 + H2)) of the fastest wave at rest."""
+        return math.sqrt(self.g * self.a_2 * self.radius * (1 + self.a_H))
+
+    @property
+    def friction_number(self) -> float:
+        """Number m = tan(delta)/a_2 by which Coulomb friction enters the scaled equations: scaled deceleration."""
+        return math.tan(math.radians(self.delta)) / self.a_2
+
+    @property
+    def turbulence(self) -> float:
+        """Number g/(xi a_2) by which Voellmy's turbulence enters the scaled equations."""
+        return self.g / (self.xi * self.a_2)
+
+    @property
     def dx(self) -> float:
         """Cell size (m): 0.6 m / cells at the paper's radius of 0.0705 m, in proportion to the radius."""
-        return 0.6 / self.cells * (self.radius / PAPER_RADIUS)
+        return PAPER_WIDTH / self.cells * (self.radius / PAPER_RADIUS)
 
+    @property
+    def scaled_dx(self) -> float:
+        """Cell size over R."""
+        return PAPER_WIDTH / self.cells / PAPER_RADIUS
 
-RUN_KEYS = tuple(field.name for field in fields(Point))
-FLOATS = ("a_H", "a_2", "r", "delta", "radius", "g", "xi", "delta_2", "pouliquen_length", "cfl", "t_end")
+    @property
+    def half_cells(self) -> int:
+        """Cells from the axis to the edge of the smallest box."""
+        return -(-self.cells // 2)
+
+    @property
+    def half_box(self) -> float:
+        """Half-width of the smallest box over R."""
+        return self.half_cells * self.scaled_dx
+
+    @property
+    def edge_time(self) -> float:
+        """Time (s) when the first wave, from R, is at the edge of the paper's box."""
+        return edge_time(self.a_H, self.a_2, self.radius, self.g)
+
+    @property
+    def profile_times(self) -> tuple[float, ...]:
+        """Times (s) of the snapshots, in order."""
+        if self.snapshot_times is None:
+            return (0.0, *paper_times(self.radius))
+        return tuple(sorted(self.snapshot_times))
+
+    @property
+    def similarity_key(self) -> tuple[float, float, float]:
+        """Numbers (a_H, r, m) to 12 digits: runs that share them, and their numerics, have the same scaled answer."""
+        return tuple(float(f"{value:.12g}") for value in (self.a_H, self.r, self.friction_number))
 
 
 def canonical(point: Point) -> str:
-    """Text of a point in one number format and one order of keys; equal points give equal texts."""
+    """Return the text of a point in one number format and one order of keys; equal points give equal texts."""
     return json.dumps(to_dict(point), separators=(",", ":"), sort_keys=True)
 
 
-def to_dict(point: Point) -> dict:
-    """Values of a point by key, as a configuration would state them; numbers in one format."""
-    values = asdict(point)
+def to_dict(point: Point) -> dict[str, Any]:
+    """Return the values of a point by key, as a configuration would state them; numbers in one format."""
+    values = {key: getattr(point, key) for key in RUN_KEYS}
     for key in FLOATS:
         if values[key] is not None:
             values[key] = float(values[key]) + 0.0  # -0.0 becomes 0.0
-    if values["t_end"] is None:
-        values["t_end"] = "rest"
     values["scene_options"] = dict(point.scene_options)
-    times = values["snapshot_times"]
-    values["snapshot_times"] = "paper" if times is None else [float(t) + 0.0 for t in times]
-    return values
+    if point.snapshot_times is not None:
+        values["snapshot_times"] = [float(t) + 0.0 for t in point.snapshot_times]
+    return {key: STANDS_FOR[key] if value is None else value for key, value in values.items()}
 
 
 def options_text(point: Point) -> str:
-    """Scene options of a point as compact JSON, in one order."""
+    """Return the scene options of a point as compact JSON, in one order."""
     return json.dumps(dict(point.scene_options), separators=(",", ":"), sort_keys=True)
 
 
-def from_dict(values: dict) -> Point:
-    """Point of checked values by key; the inverse of `to_dict`."""
-    values = dict(values)
+def from_dict(values: dict[str, Any]) -> Point:
+    """Return the point of checked values by key; the inverse of `to_dict`, with defaults for what is left out."""
+    values = {key: None if value == STANDS_FOR.get(key) else value for key, value in values.items()}
     for key in FLOATS:
-        if key in values and values[key] != "rest":
+        if values.get(key) is not None:
             values[key] = float(values[key])
-    if values.get("t_end") == "rest":
-        values["t_end"] = None
-    values["scene_options"] = tuple(sorted(values.get("scene_options", {}).items()))
-    times = values.get("snapshot_times", "paper")
-    values["snapshot_times"] = None if times == "paper" else tuple(sorted({float(t) for t in times}))
-    for key in ("order", "cells"):
+    for key in INTEGERS:
         if key in values:
             values[key] = int(values[key])
-    return replace(Point(), **values)
-
-
-def friction_number(point: Point) -> float:
-    """m = tan(delta)/a_2, the one number by which friction enters the scaled equations."""
-    return math.tan(math.radians(point.delta)) / point.a_2
-
-
-def similarity_key(point: Point) -> tuple[float, float, float]:
-    """(a_H, r, m), each to 12 digits: runs that share it, and their numerics, have the same scaled answer."""
-    return tuple(float(f"{value:.12g}") for value in (point.a_H, point.r, friction_number(point)))
+    values["scene_options"] = tuple(sorted(values.get("scene_options", {}).items()))
+    if values.get("snapshot_times") is not None:
+        values["snapshot_times"] = tuple(sorted({float(t) for t in values["snapshot_times"]}))
+    return Point(**values)

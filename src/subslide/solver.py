@@ -2,16 +2,22 @@
 
 import math
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numba
 import numpy as np
 
-from subslide.fields import FINISHED, FRONT_THRESHOLDS, STATUSES
 from subslide.kernels import clock as k
+from subslide.kernels import measures, samples
+from subslide.kernels.arrays import Track
+from subslide.kernels.measures import Scales
+from subslide.models.axial import Axial
 from subslide.models.build import build
-from subslide.points import Point, paper_times
-from subslide.study.choice import resolve_model
+from subslide.models.plane import Plane
+from subslide.naming import FINISHED, FRONT_THRESHOLDS, STATUSES
+from subslide.points import Point
+from subslide.study import choice
 
 DRY_DEPTH = 1e-6
 """Over H2: below it a layer counts as dry (HLL instead of IFCP) and velocities are cut off smoothly."""
@@ -39,25 +45,45 @@ assert set(ENDED.values()) <= set(STATUSES)
 
 @dataclass
 class Run:
-    """What a point's run gave: float64 arrays in SI units, sample s of each series at `time[s]`.
+    """Result of a point's run: float64 arrays in SI units.
 
-    `x_front` is (thresholds, samples), profiles (snapshots, x), fields (snapshots, y, x) in float32. What a model does
-    not have (water of one layer, the diagonal of a radius) is NaN or None.
+    Series are attributes too: `run.x_front` is `run.series["x_front"]`. What a model does not have (water of one layer,
+    the diagonal of a radius) is NaN or None.
+
+    Attributes
+    ----------
+    point
+        The run.
+    model, model_reason
+        Model that was solved, and why, in words.
+    dx, x
+        Cell size and cell centres (x) in m from the axis.
+    time
+        Times (samples) of the series in s.
+    series
+        Series by their names in `naming.SERIES`, each (samples), but for `x_front`, the front (thresholds, samples) in
+        m at each of `naming.FRONT_THRESHOLDS`.
+    snapshot_time
+        Times (snapshots) in s of the profiles (snapshots, x) and of the fields (snapshots, y, x), which are float32.
+    L_f
+        Length of the deposit (thresholds) in m; NaN if the run failed.
+    status, status_detail
+        How the run ended, one of `naming.STATUSES`, and what ended it, in words.
+    steps, wall_seconds
+        Time steps, and seconds of the time loop alone.
+    time_at_rest
+        Time in s since which no grain has moved; NaN if there is none.
+    box_half_width
+        Half-width of the box in m.
     """
 
     point: Point
     model: str
+    model_reason: str
     dx: float
     x: np.ndarray
     time: np.ndarray
-    x_front: np.ndarray
-    max_abs_eta: np.ndarray
-    max_abs_eta_outside: np.ndarray
-    sediment_volume: np.ndarray
-    water_volume: np.ndarray
-    energy: np.ndarray
-    nonhyperbolic_cells: np.ndarray
-    hyperbolic_margin: np.ndarray
+    series: dict[str, np.ndarray]
     snapshot_time: np.ndarray
     h2: np.ndarray
     eta: np.ndarray
@@ -72,37 +98,43 @@ class Run:
     time_at_rest: float
     box_half_width: float
 
+    def __getattr__(self, name: str) -> np.ndarray:
+        """Return the series of that name."""
+        series = self.__dict__.get("series", {})
+        if name not in series:
+            raise AttributeError(f"a run has no {name}")
+        return series[name]
 
-def solve(point, threads=1, progress=None):
+
+def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | None = None) -> Run:
     """Return the `Run` of a point; a numerical failure is a status, never an exception.
 
-    threads: cores for one plane run (no result depends on it). progress: called with the fraction of the run's time.
+    Parameters
+    ----------
+    point
+        The run.
+    threads
+        Cores for one plane run; no result depends on it.
+    progress
+        Function that is called with the fraction of the run's time that is done.
     """
     numba.set_num_threads(max(1, min(threads, numba.config.NUMBA_NUM_THREADS)))
-    half_cells = -(-point.cells // 2)
-    box = half_cells
+    box = point.half_cells
     while True:
-        run = attempt(point, resolve_model(point), box, half_cells, progress)
+        run = attempt(point, box, progress)
         grown = math.ceil(box * GROWTH)
-        if run.status != "left_domain" or grown > LARGEST_BOX * half_cells:
+        if run.status != "left_domain" or grown > LARGEST_BOX * point.half_cells:
             return run
         box = grown
 
 
-def snapshot_times(point):
-    """Return the times (s) of the point's snapshots, in order."""
-    if point.snapshot_times is None:
-        return (0.0, *paper_times(point.radius))
-    return tuple(sorted(point.snapshot_times))
-
-
-def attempt(point, model_name, box, watched, progress):
-    """Return the run in a box of `box` cells from the axis, its surface watched within `watched` cells."""
-    time_scale = math.sqrt(point.radius / (point.g * point.a_2))
+def attempt(point: Point, box: int, progress: Callable[[float], object] | None) -> Run:
+    """Return the run in a box of `box` cells from the axis, its surface watched within the smallest box."""
+    time_scale = point.time_scale
     cap = REST_CAP / math.sqrt(1.0 - point.r) * time_scale
     end = cap if point.t_end is None else point.t_end
-    times = [t for t in snapshot_times(point) if t <= end]
-    model = build(point, model_name, box, watched, DRY_DEPTH)
+    times = [t for t in point.profile_times if t <= end]
+    model = build(point, box, point.half_cells, DRY_DEPTH)
     clock = np.array([0.0, 0.0, math.inf, -1.0])
     if point.t_end is None:
         clock[k.REST_FROM] = max(times[-1] / time_scale if times else 0.0, np.nextafter(0.0, 1.0))
@@ -119,47 +151,47 @@ def attempt(point, model_name, box, watched, progress):
         if outcome != k.REACHED:
             break
     snapshots.append((clock[k.NOW] * time_scale, model.profile(), model.fields() if point.fields else None))
-    series = np.concatenate(chunks)
+    sampled = np.concatenate(chunks)
     status = ENDED.get(outcome, "ok" if point.t_end is not None else "not_at_rest")
-    detail = "" if status == "ok" else describe(status, model, series, time_scale)
-    return make_run(point, model, series, snapshots, status, detail, wall, clock)
+    detail = "" if status == "ok" else describe(status, model, sampled, time_scale)
+    return make_run(point, model, sampled, snapshots, (status, detail), wall, clock)
 
 
-def thresholds(model):
+def thresholds(model: Axial | Plane) -> tuple[np.floating, ...]:
     """Return the front's thresholds in the working precision."""
-    return tuple(model.scene.r.dtype.type(value) for value in FRONT_THRESHOLDS)
+    return tuple(model.settings.r.dtype.type(value) for value in FRONT_THRESHOLDS)
 
 
-def warm_up(model):
+def warm_up(model: Axial | Plane) -> None:
     """Compile the time loop (or load it) with a segment of no length, which changes nothing but derived values."""
-    model.advance(
-        thresholds(model), np.array([0.0, 0.0, math.inf, -1.0]), np.empty((2, k.COLUMNS)), np.zeros(2, int)
-    )
+    track = Track(np.array([0.0, 0.0, math.inf, -1.0]), np.empty((2, samples.COLUMNS)), np.zeros(2, np.int64))
+    model.advance(thresholds(model), track)
 
 
-def advance_to(model, clock, chunks, look):
+def advance_to(
+    model: Axial | Plane, clock: np.ndarray, chunks: list[np.ndarray], look: Callable[[float], object]
+) -> tuple[int, float]:
     """Return why the loop ended and its seconds; samples are appended to `chunks`, one for each instant.
 
     A loop that starts again samples its first instant again, so the last sample before it is dropped.
     """
     wall = 0.0
     while True:
-        samples = np.empty((CHUNK, k.COLUMNS))
-        counters = np.zeros(2, np.int64)
+        track = Track(clock, np.empty((CHUNK, samples.COLUMNS)), np.zeros(2, np.int64))
         started = time.perf_counter()
-        model.advance(thresholds(model), clock, samples, counters)
+        model.advance(thresholds(model), track)
         wall += time.perf_counter() - started
         if chunks:
             chunks[-1] = chunks[-1][:-1]
-        chunks.append(samples[: counters[k.SAMPLES]])
+        chunks.append(track.samples[: track.counters[k.SAMPLES]])
         look(clock[k.NOW])
-        if counters[k.OUTCOME] != k.FULL:
-            return int(counters[k.OUTCOME]), wall
+        if track.counters[k.OUTCOME] != k.FULL:
+            return int(track.counters[k.OUTCOME]), wall
 
 
-def describe(status, model, series, time_scale):
+def describe(status: str, model: Axial | Plane, sampled: np.ndarray, time_scale: float) -> str:
     """Return one line on a run that did not end well: what, when, after how many steps, and where."""
-    text = f"{STATUSES[status]}; t = {series[-1, k.TIME] * time_scale:.6g} s, step {len(series) - 1}"
+    text = f"{STATUSES[status]}; t = {sampled[-1, samples.TIME] * time_scale:.6g} s, step {len(sampled) - 1}"
     suspect = ""
     if status in ("diverged", "negative_depth", "step_collapse"):
         suspect = model.suspect()
@@ -168,51 +200,63 @@ def describe(status, model, series, time_scale):
     return f"{text}, {suspect}" if suspect else text
 
 
-def make_run(point, model, series, snapshots, status, detail, wall, clock):
-    """Return the `Run` of a finished loop, in SI units."""
-    R, H2 = point.radius, point.a_2 * point.radius
-    time_scale = math.sqrt(R / (point.g * point.a_2))
-    volume = model.copies * H2 * R**model.dimensions
-    lonely = model.scene.layers == 1
-    column = series.T
-    nothing = np.full(len(series), np.nan)
+def series_in_si(model: Axial | Plane, point: Point, sampled: np.ndarray) -> dict[str, np.ndarray]:
+    """Return the series of a run by name, in SI units, from its samples; NaN where the model lacks a layer."""
+    volume = model.copies * point.column_height * point.radius**model.dimensions
+    si = Scales(point.radius, point.column_height, point.g, volume, model.copies)
+    column = sampled.T
+    series = {"x_front": column[samples.FRONT : samples.FRONT + samples.FRONTS] * si.length}
+    for name, measured in measures.SERIES.items():
+        known = model.settings.layers >= measured.layers
+        values = column[samples.COLUMN[name]]
+        series[name] = measured.si(values, si) if known else np.full(len(sampled), np.nan)
+    return series
+
+
+def make_run(
+    point: Point,
+    model: Axial | Plane,
+    sampled: np.ndarray,
+    snapshots: list[tuple],
+    ended: tuple[str, str],
+    wall: float,
+    clock: np.ndarray,
+) -> Run:
+    """Return the `Run` of a finished loop, in SI units. ended: its status and the detail of it."""
+    height, time_scale = point.column_height, point.time_scale
     profiles = [profile for _, profile, _ in snapshots]
     whole = [fields for _, _, fields in snapshots]
-    front = column[k.FRONT : k.FRONT + len(FRONT_THRESHOLDS)] * R
+    series = series_in_si(model, point, sampled)
+    front = series["x_front"]
+    status, detail = ended
     final = status in FINISHED
 
     def stack(values, name, kind=np.float64):
         if values[0] is None or name not in values[0]:
             return None
-        return (np.stack([value[name] for value in values]) * H2).astype(kind)
+        return (np.stack([value[name] for value in values]) * height).astype(kind)
 
+    alone = model.settings.layers == 1
+    rested = clock[k.REST_SINCE] >= 0 and final
     return Run(
         point=point,
         model=model.name,
+        model_reason=choice.of(point).reason,
         dx=point.dx,
-        x=model.x * R,
-        time=column[k.TIME] * time_scale,
-        x_front=front,
-        max_abs_eta=nothing if lonely else column[k.ETA] * H2,
-        max_abs_eta_outside=nothing if lonely else column[k.ETA_OUTSIDE] * H2,
-        sediment_volume=column[k.GRAINS] * volume,
-        water_volume=nothing if lonely else column[k.WATER] * volume,
-        energy=column[k.ENERGY] * volume * H2 * point.g,
-        nonhyperbolic_cells=column[k.COMPLEX] * model.copies,
-        hyperbolic_margin=nothing if lonely else column[k.MARGIN],
+        x=model.x * point.radius,
+        time=sampled[:, samples.TIME] * time_scale,
+        series=series,
         snapshot_time=np.array([t for t, _, _ in snapshots]),
         h2=stack(profiles, "h2"),
-        eta=np.full((len(profiles), len(model.x)), np.nan) if lonely else stack(profiles, "eta"),
+        eta=np.full((len(profiles), len(model.x)), np.nan) if alone else stack(profiles, "eta"),
         h2_diagonal=stack(profiles, "h2_diagonal"),
         h2_field=stack(whole, "h2", np.float32),
         eta_field=stack(whole, "eta", np.float32),
         L_f=front[:, -1].copy() if final else np.full(len(FRONT_THRESHOLDS), np.nan),
         status=status,
         status_detail=detail,
-        steps=len(series) - 1,
+        steps=len(sampled) - 1,
         wall_seconds=wall,
-        time_at_rest=float(
-            clock[k.REST_SINCE] * time_scale if clock[k.REST_SINCE] >= 0 and final else np.nan
-        ),
-        box_half_width=model.half_width * R,
+        time_at_rest=float(clock[k.REST_SINCE] * time_scale if rested else np.nan),
+        box_half_width=model.half_width * point.radius,
     )

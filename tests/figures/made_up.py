@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from subslide import fields
+from subslide import naming
 
 TIMES = (0.0, 0.08, 0.16, 0.24, 0.54)
 DEFAULTS = {
@@ -83,7 +83,7 @@ def made_up_run(row):
         eta, wave = eta * np.nan, wave * np.nan
     if failed:
         front[-1] = wave[-1] = np.nan
-    thresholds = np.array(fields.FRONT_THRESHOLDS)
+    thresholds = np.array(naming.FRONT_THRESHOLDS)
     fronts = front * (1 - 4 * (thresholds[:, None] - 0.01))
     lengths = np.full(3, np.nan) if failed else fronts[:, -1]
     row = {**row, "dx": dx, "time_at_rest": np.nan if failed else rest}
@@ -129,7 +129,7 @@ def depth(x, front, radius, height):
 def tidy(name, data):
     """Series of a dataset as rows of id, time, quantity, value."""
     values = {
-        f"x_front_{100 * t:.0f}pc": data["x_front"].values[k] for k, t in enumerate(fields.FRONT_THRESHOLDS)
+        f"x_front_{100 * t:.0f}pc": data["x_front"].values[k] for k, t in enumerate(naming.FRONT_THRESHOLDS)
     }
     values |= {key: data[key].values for key in ("max_abs_eta", "max_abs_eta_outside")}
     parts = (

@@ -11,7 +11,8 @@ import xarray as xr
 from subslide import catalogue, exact
 from subslide.points import RUN_KEYS, options_text, to_dict
 from subslide.results import StudyRun
-from subslide.study.config import make_study, read_study, solved_model
+from subslide.study import choice
+from subslide.study.config import make_study, read_study
 from subslide.tables import atlas
 
 NAMES = [name for name in catalogue.names("figures") if name.startswith("stability_")]
@@ -55,7 +56,7 @@ class MadeUp:
         """Record of one run."""
         point = self.all[name]
         half = point.cells // 2
-        line = solved_model(point) == "line"
+        line = choice.of(point).model == "line"
         x = (np.arange(-half if line else 0, half) + 0.5) * point.dx
         time = np.linspace(0, 1, 21)
         shots = np.array([0, 0.1, 0.2, 1.0])

@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from states import advance, inner, plane, scene
+from states import advance, inner, plane, settings
 
-from subslide.kernels.printed import AS_PRINTED, braking, carried
-from subslide.models.build import scaled
+from subslide.kernels.printed import FLAGS, braking, carried
+from subslide.models.build import settings_of
 from subslide.solver import solve
 from subslide.study import config
 
@@ -30,7 +30,7 @@ def test_the_printed_test_of_rest_never_stops_a_pile(order):
 def test_the_printed_test_compares_speed_and_deceleration_as_numbers():
     """u* = u - dt g (1-r) mu is kept up to |u*| = g (1-r) mu, here 2.52 m/s; faster grains stop."""
     point = config.make_point({"as_printed": "friction", "r": 0.4, "delta": 40, "a_2": 0.56})
-    s = scaled(point, 2, 0.04, 1e-6)
+    s = settings_of(point, 2, 0.04, 1e-6)
     speed = math.sqrt(9.81 * 0.56 * 0.0705)
     assert s.printed_bound * speed == pytest.approx(9.81 * 0.6 * math.tan(math.radians(40)))
     reach = 0.01
@@ -39,13 +39,13 @@ def test_the_printed_test_compares_speed_and_deceleration_as_numbers():
     assert braking(s, reach, bound + 2 * reach, 0.0) == 0
     assert braking(s, reach, 0.004, 1.0) == pytest.approx(1 - 0.01 / 0.004)  # turned round
     assert braking(s, reach, 0.0, 0.0) == 0
-    usual = scene(0.04, treatment=1)
+    usual = settings(0.04, treatment=1)
     assert braking(usual, reach, bound + 1, 0.0) == pytest.approx(1 - reach / (bound + 1))
     assert braking(usual, reach, 0.004, 0.0) == 0
 
 
 def test_printed_upwinding_takes_the_other_side_over_the_wrong_depth():
-    usual, printed = (scene(0.04, as_printed=AS_PRINTED[name], treatment=1) for name in ("none", "upwinding"))
+    usual, printed = (settings(0.04, as_printed=FLAGS[name], treatment=1) for name in ("none", "upwinding"))
     for flux, one, other in ((1.0, 3.0, 0.5 * 7 / 0.25), (-1.0, 7.0, 3.0)):
         assert carried(usual, flux, 0.25, 3.0, 0.5, 7.0) == one
         assert carried(printed, flux, 0.25, 3.0, 0.5, 7.0) == other
@@ -60,7 +60,7 @@ def test_printed_upwinding_lets_ripples_of_the_tangential_velocity_grow():
     heights = {}
     for name in ("none", "upwinding"):
         options = {
-            "as_printed": AS_PRINTED[name],
+            "as_printed": FLAGS[name],
             "treatment": 1,
             "friction": 0.0,
             "walls": (2,) * 4,

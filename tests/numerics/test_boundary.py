@@ -40,7 +40,7 @@ def test_a_moved_start_on_a_line_gives_the_moved_answer_to_the_bit(order, dry):
     """Moved so that cells which drain at once, and their limited fluxes, come to either side of the ends."""
     one = on_a_line(order, dry)
     advance(one, steps=1)
-    drained = np.flatnonzero(inner(one.marks, "keep2") < 1)
+    drained = np.flatnonzero(inner(one.terms, "keep2") < 1)
     assert (len(drained) > 2) == dry
     advance(one, steps=59)
     assert inner(one, "h2").min() >= 0
@@ -56,7 +56,7 @@ def test_a_moved_start_on_a_line_gives_the_moved_answer_to_the_bit(order, dry):
 def test_a_moved_start_in_the_plane_gives_the_moved_answer_to_the_bit(order, dry):
     one = in_the_plane(order, dry)
     advance(one, steps=1)
-    drained = np.argwhere(inner(one.marks, "keep2") < 1)
+    drained = np.argwhere(inner(one.terms, "keep2") < 1)
     assert (len(drained) > 2) == dry
     advance(one, steps=29)
     for shift in ((5, -7), *-drained[:3], *(23 - drained[:3])):

@@ -4,13 +4,16 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from states import scene
+from states import settings as numbers
 from test_waves import matrix
 
-from subslide.kernels.edge import edge_fluxes, grain_edge_fluxes
-from subslide.kernels.viscosity import SCHEMES, coefficients
+from subslide.kernels import viscosity
+from subslide.kernels.edge.grains import grain_edge_fluxes
+from subslide.kernels.edge.roe_matrix import Jump, Normal, RoeMatrix, times
+from subslide.kernels.edge.two_layers import edge_fluxes
 from subslide.kernels.viscosity.roe import roe
-from subslide.kernels.waves import inner_speeds, outer_speeds
+from subslide.kernels.waves import Waves, inner_speeds, outer_speeds
+from subslide.keys.names import SCHEMES
 
 depths = st.floats(1e-3, 10.0)
 speeds = st.floats(-1.5, 1.5)
@@ -20,8 +23,14 @@ NODES = {"rusanov": "max", "hll": "two", "ifcp": "three", "ifcph": "three"}
 PARABOLAS = tuple(NODES)
 
 
+def alpha(scheme, s_l, s_int, s_r, dry=False):
+    """Return the coefficients of a solver for these speeds."""
+    waves = Waves(s_l, s_int, s_r, s_l, s_r, 0.5 * (s_l + s_r), 0.0, s_l, s_r)
+    return viscosity.alpha(numbers(1.0, scheme=scheme), waves, dry)
+
+
 def polynomial(scheme, s_l, s_int, s_r, x, dry=False):
-    a0, a1, a2 = coefficients(SCHEMES[scheme], s_l, s_int, s_r, dry)
+    a0, a1, a2 = alpha(scheme, s_l, s_int, s_r, dry)
     return a0 + a1 * x + a2 * x * x
 
 
@@ -64,8 +73,8 @@ def test_viscosity_is_at_least_upwind_on_all_four_waves(scheme, h1, u1, h2, shea
 
 def test_ifcph_is_hll_at_a_dry_edge_and_ifcp_elsewhere():
     speeds = (-1.0, -0.4, 2.0)
-    assert coefficients(SCHEMES["ifcph"], *speeds, True) == coefficients(SCHEMES["hll"], *speeds, True)
-    assert coefficients(SCHEMES["ifcph"], *speeds, False) == coefficients(SCHEMES["ifcp"], *speeds, False)
+    assert alpha("ifcph", *speeds, dry=True) == alpha("hll", *speeds, dry=True)
+    assert alpha("ifcph", *speeds) == alpha("ifcp", *speeds)
 
 
 def fluxes(scheme, r, w_i, w_j, stuck=False, exact_front=True):
@@ -73,12 +82,12 @@ def fluxes(scheme, r, w_i, w_j, stuck=False, exact_front=True):
     bounds = np.array([outer_speeds(*w, r) for w in (w_i, w_j)])
     d_eta = (w_j[0] + w_j[2]) - (w_i[0] + w_i[2])
     f1, m1, p1, f2, m2, p2 = edge_fluxes(
-        scene(1.0, scheme=scheme, r=r, exact_front=exact_front),
+        numbers(1.0, scheme=scheme, r=r, exact_front=exact_front),
         stuck,
         bounds[:, 0].min(),
         bounds[:, 1].max(),
-        *w_i,
-        *w_j,
+        Normal(*w_i),
+        Normal(*w_j),
         d_eta,
     )
     return np.array([f1, m1, f2, m2]), np.array([0, p1, 0, p2])
@@ -101,6 +110,13 @@ def roe_mean(w_i, w_j):
 
     h1, h2 = (w_i[0] + w_j[0]) / 2, (w_i[2] + w_j[2]) / 2
     return h1, velocity(w_i[0], w_i[1], w_j[0], w_j[1]), h2, velocity(w_i[2], w_i[3], w_j[2], w_j[3])
+
+
+@given(w=states, d=st.tuples(speeds, speeds, speeds, speeds), r=ratios)
+def test_products_with_the_roe_matrix(w, d, r):
+    h1, u1, h2, u2 = w
+    a = RoeMatrix(u1, h1 - u1 * u1, h1, u2, h2 - u2 * u2, h2, r * h2)
+    np.testing.assert_allclose(times(a, Jump(*d)), matrix(*w, r) @ d, rtol=1e-12, atol=1e-12)
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
@@ -132,7 +148,7 @@ def test_viscosity_is_the_polynomial_of_the_roe_matrix(scheme, w_i, w_j, r):
     s_l, s_r = speeds[:, 0].min(), speeds[:, 1].max()
     centre, half = inner_speeds(*mean, r, *speeds[2])
     s_int = side(s_l, s_r) * (abs(centre) + np.sqrt(max(half, 0)))
-    a0, a1, a2 = coefficients(SCHEMES[scheme], s_l, s_int, s_r, False)
+    a0, a1, a2 = alpha(scheme, s_l, s_int, s_r)
     a = matrix(*mean, r)
     jump = conserved(w_j) - conserved(w_i)
     viscous = (a0 * np.eye(4) + a1 * a + a2 * a @ a) @ jump
@@ -164,10 +180,10 @@ def test_no_grain_passes_a_stuck_edge_even_under_a_wave():
 
 @given(h_i=depths, u_i=speeds, h_j=depths, u_j=speeds)
 def test_grains_alone_are_consistent(h_i, u_i, h_j, u_j):
-    f, m, p = grain_edge_fluxes(scene(1.0, scheme="hll"), False, h_i, u_i, h_i, u_i)
+    f, m, p = grain_edge_fluxes(numbers(1.0, scheme="hll"), False, h_i, u_i, h_i, u_i)
     np.testing.assert_allclose([f, m, p], [h_i * u_i, h_i * u_i**2, 0], atol=1e-13)
-    f, m, p = grain_edge_fluxes(scene(1.0, scheme="hll"), False, h_i, u_i, h_j, u_j)
-    back = grain_edge_fluxes(scene(1.0, scheme="hll"), False, h_j, -u_j, h_i, -u_i)
+    f, m, p = grain_edge_fluxes(numbers(1.0, scheme="hll"), False, h_i, u_i, h_j, u_j)
+    back = grain_edge_fluxes(numbers(1.0, scheme="hll"), False, h_j, -u_j, h_i, -u_i)
     assert back == (-f, m, -p)
 
 
@@ -234,5 +250,5 @@ def test_an_exact_front_changes_nothing_between_wet_cells():
 def test_the_front_under_weightless_water_is_the_front_of_grains_alone():
     grains, water = (0.4, 0.7), (0.3, 0.0)
     flux, _ = fluxes("ifcph", 0.0, (*water, *grains), (*water, 0.0, 0.0))
-    f, m, _ = grain_edge_fluxes(scene(1.0, scheme="hll"), False, *grains, 0.0, 0.0)
+    f, m, _ = grain_edge_fluxes(numbers(1.0, scheme="hll"), False, *grains, 0.0, 0.0)
     np.testing.assert_allclose(flux[2:], [f, m], rtol=1e-14)

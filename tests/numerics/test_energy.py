@@ -12,6 +12,7 @@ import pytest
 from states import advance, axial, plane
 
 from subslide.kernels import clock as k
+from subslide.kernels import samples as columns
 
 SCHEMES = ("rusanov", "hll", "ifcp", "ifcph", "ifcph, exact front")
 STATES = tuple(itertools.product((0.0, 0.4, 0.8), (1.0, 10.0), (0.0, 0.3, 1.1)))
@@ -56,14 +57,14 @@ def energies(cells, a_H, scheme, radial=False, **options):
     model = axial(edges, 1 + a_H - h2, 0, h2, 0, level=1 + a_H, radial=radial, **options)
     samples, outcome = advance(model, stop=4.0, thresholds=WALLED)
     assert outcome == k.REACHED
-    return samples[:, k.ENERGY]
+    return samples[:, columns.ENERGY]
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
 @pytest.mark.parametrize("cells", [50, 100])
 def test_energy_never_grows_at_first_order_on_a_line(scheme, cells):
-    for r, a_H, friction in STATES:
-        energy = energies(cells, a_H, scheme, order=1, r=r, friction=friction)
+    for r, a_H, m in STATES:
+        energy = energies(cells, a_H, scheme, order=1, r=r, m=m)
         assert np.diff(energy).max() <= 1e-14 * energy[0]
 
 
@@ -72,8 +73,8 @@ def test_energy_never_grows_at_first_order_on_a_line(scheme, cells):
 def test_a_step_gives_back_energy_in_proportion_to_dx_at_most(scheme, case):
     geometry, order = case
     for cells in (50, 100, 200):
-        for r, a_H, friction in STATES:
-            options = {"order": order, "r": r, "friction": friction}
+        for r, a_H, m in STATES:
+            options = {"order": order, "r": r, "m": m}
             energy = energies(cells, a_H, scheme, geometry == "radius", **options)
             given_back = np.diff(energy).max() / (energy[0] - energy[-1])
             assert given_back <= GIVEN_BACK[case][scheme] * 4.2 / cells
@@ -85,10 +86,10 @@ def test_energy_never_grows_in_the_plane(scheme, order):
     edges = np.arange(25) * 0.125
     x = (edges[1:] + edges[:-1]) / 2
     h2 = np.where(np.hypot(x[:, None], x) < 1, 1.0, 0.0)
-    model = plane(edges, 2 - h2, h2, level=2.0, order=order, friction=1.1, **named(scheme))
+    model = plane(edges, 2 - h2, h2, level=2.0, order=order, m=1.1, **named(scheme))
     samples, outcome = advance(model, stop=1.5, thresholds=WALLED)
     assert outcome == k.REACHED
-    assert np.diff(samples[:, k.ENERGY]).max() <= 1e-14 * samples[0, k.ENERGY]
+    assert np.diff(samples[:, columns.ENERGY]).max() <= 1e-14 * samples[0, columns.ENERGY]
 
 
 @pytest.mark.parametrize("order", [1, 2])
@@ -97,4 +98,4 @@ def test_a_front_with_a_flux_of_its_own_raises_no_wave_in_the_first_step(order):
     h2 = np.where(edges[1:] < 1, 1.0, 0.0)
     model = axial(edges, 11 - h2, 0, h2, 0, level=11.0, r=0.8, order=order, exact_front=True)
     samples, _ = advance(model, steps=1, thresholds=WALLED)
-    assert samples[-1, k.ETA] < 1e-12
+    assert samples[-1, columns.ETA] < 1e-12

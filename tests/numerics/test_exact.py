@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from states import advance, axial, inner
 
-from subslide.exact import dam_break, standing_wave
-from subslide.exact._bessel import bessel, zero_of_j1
+from subslide.exact import dam_break
 from subslide.exact.paraboloid import depth, radius, ring_mean
+from subslide.scenes import standing_wave
+from subslide.scenes._bessel import bessel, zero_of_j1
 from subslide.solver import solve
 from subslide.study import config
 
@@ -29,7 +30,7 @@ def error(dx, order, layers):
         level=2.0,
         layers=layers,
         r=0.0,
-        friction=0.0,
+        m=0.0,
         order=order,
         radial=True,
         walls=(True, False),

@@ -9,9 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from states import advance, axial, inner
 
-from subslide.fields import STATUSES
 from subslide.kernels import clock as k
-from subslide.kernels.viscosity import SCHEMES
+from subslide.kernels import samples as columns
+from subslide.keys.names import SCHEMES
+from subslide.naming import STATUSES
 from subslide.points import Point
 from subslide.scenes.cylinder import disc_corner_area, quadrant_depth, radial_depth
 from subslide.solver import solve
@@ -70,7 +71,7 @@ def test_momentum_changes_by_the_pressure_at_the_ends_alone(scheme, order, dry):
     samples, outcome = advance(model, stop=1.0, thresholds=(9.0, 9.0, 9.0))
     assert outcome == k.REACHED
     np.testing.assert_allclose(inner(model, "u1")[[0, -1]], 0.05, rtol=1e-12)
-    change = (inflow(0) - inflow(-1)) * samples[-1, k.TIME]
+    change = (inflow(0) - inflow(-1)) * samples[-1, columns.TIME]
     np.testing.assert_allclose(momentum() - before, change, rtol=0, atol=1e-6 if dry else 1e-12)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from subslide import exact, solver
-from subslide.exact import standing_wave
+from subslide.scenes import standing_wave
 from subslide.study.config import make_point
 
 ROUND, LINE = "round", "line"

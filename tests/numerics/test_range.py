@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from subslide.fields import STATUSES
-from subslide.kernels.viscosity import SCHEMES
+from subslide.keys.names import SCHEMES
+from subslide.naming import STATUSES
 from subslide.points import Point
 from subslide.solver import solve
 

@@ -27,7 +27,7 @@ def pyramid(slope, degrees):
 def unmoved(h2, steps, order=1, r=0.4, edges=EDGES):
     """Whether grains h2 under a flat surface are the same bits after `steps` steps."""
     h1, h2 = level_off(h2, 2.0)
-    model = plane(edges, h1, h2, level=2.0, r=r, friction=MU, order=order)
+    model = plane(edges, h1, h2, level=2.0, r=r, m=MU, order=order)
     before = [inner(model, name).copy() for name in STATE]
     advance(model, steps=steps)
     return all(np.array_equal(inner(model, n), b) for n, b in zip(STATE, before, strict=True))
@@ -57,7 +57,7 @@ def test_a_round_pile_is_bit_still_for_10000_steps_and_moves_if_too_steep(order,
     x = (edges[1:] + edges[:-1]) / 2
     for slope, still in ((0.9, True), (1.05, False)):
         h1, h2 = level_off(np.maximum(0.0, 1 - slope * MU * x), 2.0)
-        model = axial(edges, h1, 0, h2, 0, level=2.0, radial=True, r=r, friction=MU, order=order)
+        model = axial(edges, h1, 0, h2, 0, level=2.0, radial=True, r=r, m=MU, order=order)
         advance(model, steps=10_000 if still else 200)
         found = [inner(model, name) for name in ("h1", "u1", "h2", "u2")]
         same = all(np.array_equal(a, b) for a, b in zip(found, (h1, 0 * x, h2, 0 * x), strict=True))
@@ -83,7 +83,7 @@ def test_a_lake_over_grains_as_steep_as_friction_allows_is_bit_still(order):
     edges = np.linspace(0, 2, 101)
     x = (edges[1:] + edges[:-1]) / 2
     h1, h2 = level_off(0.4 + 0.3 * np.sin(3 * x), 1.5)
-    model = axial(edges, h1, 0, h2, 0, level=1.5, friction=1.0, order=order)
+    model = axial(edges, h1, 0, h2, 0, level=1.5, m=1.0, order=order)
     advance(model, steps=10_000)
     np.testing.assert_array_equal(inner(model, "h2"), h2)
     np.testing.assert_array_equal(inner(model, "u1"), 0)

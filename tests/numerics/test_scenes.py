@@ -57,9 +57,8 @@ def point(case, **changes):
 
 def grains(case, model="auto", **changes):
     """h2 of a case at the start, on the smallest box of a model."""
-    p = point(case, **changes)
-    name = choice.resolve_model(p) if model == "auto" else model
-    return scenes.load(p.scene).initial(make_grid(choice.geometry(name, p), DX, HALF), p).h2
+    p = point(case, model=model, **changes)
+    return scenes.load(p.scene).initial(make_grid(choice.of(p).geometry, DX, HALF), p).h2
 
 
 def test_every_scene_is_a_case_or_the_raster():
@@ -69,10 +68,10 @@ def test_every_scene_is_a_case_or_the_raster():
 @pytest.mark.parametrize("case", CASES)
 def test_scenes_allow_the_models_that_are_exact_for_them(case):
     models = CASES[case][3].split()
-    assert choice.resolve_model(point(case)) == models[0]
+    assert choice.of(point(case)).model == models[0]
     lone = ["one-layer"] if models[0] in ("radial", "line") else []
     assert set(lone + models) <= set(choice.exact_models(point(case, r=0)))
-    assert choice.resolve_model(point(case, r=0, quantities="grains")) == (lone + models)[0]
+    assert choice.of(point(case, r=0, quantities="grains")).model == (lone + models)[0]
     for model in {"radial", "line", "quarter", "plane"} - set(models):
         with pytest.raises(config.ConfigError, match="^model: "):
             point(case, model=model)
@@ -83,7 +82,7 @@ def test_scenes_run_and_hold_their_volume(case, model):
     run = solve(point(case, model=model, t_end=0.01, r=0 if model == "one-layer" else 0.4))
     assert (run.status, run.model) == ("ok", model)
     assert run.steps >= 1
-    on_line = choice.geometry(model, run.point) == "line"
+    on_line = choice.of(run.point).geometry == "line"
     volume = run.sediment_volume / (0.56 * 0.0705 ** (2 if on_line else 3))
     np.testing.assert_allclose(volume[0], CASES[case][4], rtol=2e-4, atol=1e-12)
     np.testing.assert_allclose(volume, volume[0], rtol=1e-12, atol=1e-12)
@@ -167,7 +166,7 @@ def test_piles_rest_unless_they_are_too_steep(case, order):
 @pytest.mark.parametrize(("law", "delta"), [("coulomb", 0), ("coulomb", 20), ("voellmy", 20), ("voellmy", 0)])
 def test_a_slide_slows_as_its_friction_law_says(law, delta):
     p = point("slide", friction=law, delta=delta, xi=50, cells=400)
-    model = build(p, "line", 200, 200, 1e-6)
+    model = build(p, 200, 200, 1e-6)
     advance(model, stop=0.5)
     time = 0.5 * math.sqrt(p.radius / (p.g * p.a_2))
     speed = float(slide.speed_of(p, time)) / math.sqrt(p.g * p.a_2 * p.radius)
@@ -210,7 +209,7 @@ def test_a_raster_of_the_cylinder_is_the_cylinder(raster, method):
             "t_end": 0.1,
         }
     )
-    assert choice.resolve_model(p) == "plane"
+    assert choice.of(p).model == "plane"
     found = scenes.load("raster").initial(make_grid("plane", DX, HALF), p).h2
     np.testing.assert_allclose(found, grains("cylinder", "plane"), rtol=0, atol=1e-12)
     run, reference = solve(p), solve(point("cylinder", model="plane", t_end=0.1))
@@ -233,7 +232,7 @@ def test_the_id_follows_the_rasters_content(raster):
     raster(x, x, np.full((10, 10), 0.011))
     other = config.make_point(values)
     assert first.id == again.id != other.id
-    with pytest.raises(scenes.SceneError, match="has changed"):
+    with pytest.raises(config.ConfigError, match="has changed"):
         scenes.check(first)
 
 

@@ -11,8 +11,9 @@ from states import advance, axial, plane
 from test_waves import matrix
 
 from subslide.exact import shear
-from subslide.kernels import clock as k
+from subslide.kernels import samples as columns
 from subslide.kernels import waves
+from subslide.scenes import shear as layers
 from subslide.solver import solve
 from subslide.study import config
 
@@ -22,9 +23,9 @@ LAYERS = [(1.0, 0.8), (0.3, 0.4), (4.0, 0.6), (0.1, 0.98), (1.0, 0.05)]
 @pytest.mark.parametrize(("h1", "r"), LAYERS)
 @pytest.mark.parametrize("part", [0.3, 0.99, 1.01, 1.1])
 def test_the_wave_is_an_eigenvector_of_the_sheared_layers(h1, r, part):
-    u1, u2 = shear.velocities(h1, 1.0, r, part * shear.critical_shear(h1, 1.0, r), drift=0.3)
+    u1, u2 = layers.velocities(h1, 1.0, r, part * layers.critical_shear(h1, 1.0, r), drift=0.3)
     assert r * h1 * u1 + u2 == pytest.approx(0.3 * (r * h1 + 1))
-    c, (dh1, du1, dh2, du2) = shear.mode(h1, u1, 1.0, u2, r)
+    c, (dh1, du1, dh2, du2) = layers.mode(h1, u1, 1.0, u2, r)
     assert (c.imag > 0) == (part > 1)
     assert max(abs(dh1), abs(dh2)) == pytest.approx(1)
     jump = np.array([dh1, u1 * dh1 + h1 * du1, dh2, u2 * dh2 + du2])
@@ -33,17 +34,19 @@ def test_the_wave_is_an_eigenvector_of_the_sheared_layers(h1, r, part):
 
 @pytest.mark.parametrize(("h1", "r"), LAYERS)
 def test_both_discriminants_change_sign_at_the_critical_shear(h1, r):
-    critical = shear.critical_shear(h1, 1.0, r)
+    critical = layers.critical_shear(h1, 1.0, r)
     for part, sign in ((0.5, 1), (1 - 1e-6, 1), (1 + 1e-6, -1), (1.05, -1)):
         du = part * critical
-        assert np.sign(shear.discriminant(h1, 1.0, du, r)) == sign
+        assert np.sign(layers.discriminant(h1, 1.0, du, r)) == sign
         assert np.sign(waves.discriminant(h1, 1.0, du**2, r)) == sign
 
 
 def test_the_critical_shear_has_its_known_limits():
-    assert shear.critical_shear(0.5, 1.0, 0.9999) == pytest.approx(np.sqrt(1e-4 * 1.5), rel=1e-3)
-    assert shear.critical_shear(0.5, 1.0, 1e-6) == pytest.approx(shear.critical_shear(0.5, 1.0, 0), rel=3e-3)
-    assert shear.critical_shear(0.5, 1.0, 0) == np.sqrt(0.5) + 1
+    assert layers.critical_shear(0.5, 1.0, 0.9999) == pytest.approx(np.sqrt(1e-4 * 1.5), rel=1e-3)
+    assert layers.critical_shear(0.5, 1.0, 1e-6) == pytest.approx(
+        layers.critical_shear(0.5, 1.0, 0), rel=3e-3
+    )
+    assert layers.critical_shear(0.5, 1.0, 0) == np.sqrt(0.5) + 1
 
 
 @settings(max_examples=300, deadline=None)
@@ -53,7 +56,7 @@ def test_the_critical_shear_has_its_known_limits():
 )  # fmt: skip
 def test_the_verdict_is_that_of_exact_arithmetic(h1, h2, r, side, distance):
     """As near to the limit as to the margin of round-off; in fractions nothing is rounded."""
-    squared = (shear.critical_shear(h1, h2, r) * (1 + side * distance)) ** 2
+    squared = (layers.critical_shear(h1, h2, r) * (1 + side * distance)) ** 2
     a, b, d2 = (Fraction(value) for value in (h1, h2, squared / 4))
     p, q2 = -2 * d2 - a - b, 4 * d2 * (b - a) ** 2
     s = (d2 - a) * (d2 - b) - Fraction(r) * a * b
@@ -78,7 +81,7 @@ def test_the_series_counts_the_cells_whose_matrix_has_complex_eigenvalues(make):
     cells = zip(h1.ravel(), h2.ravel(), shear.ravel(), strict=True)
     lost = sum(np.abs(np.linalg.eigvals(matrix(a, d, b, 0.0, 0.9)).imag).max() > 1e-6 for a, b, d in cells)
     assert 0.1 * h1.size < lost < 0.9 * h1.size
-    assert advance(model, steps=1)[0][0, k.COMPLEX] == lost
+    assert advance(model, steps=1)[0][0, columns.COMPLEX] == lost
 
 
 def run(part, folds, samples=5, **keys):
@@ -93,8 +96,8 @@ def run(part, folds, samples=5, **keys):
         **keys,
     }
     point = config.make_point(values)
-    c = complex(shear.mode(*shear.base(point), point.r)[0])
-    rate = shear.wave_number(point) * (c.imag or abs(c.real)) / np.sqrt(point.radius / (point.g * point.a_2))
+    c = complex(layers.mode(*layers.base(point), point.r)[0])
+    rate = layers.wave_number(point) * (c.imag or abs(c.real)) / np.sqrt(point.radius / (point.g * point.a_2))
     times = np.linspace(0, folds / rate, samples)
     point = dataclasses.replace(point, t_end=times[-1], snapshot_times=tuple(times[:-1]))
     result = solve(point)
@@ -145,7 +148,7 @@ def test_the_solution_moves_and_grows_with_the_wave():
 
 
 def test_the_margin_is_one_at_rest_and_negative_where_speeds_are_complex():
-    critical = shear.critical_shear(1.0, 1.0, 0.8)
+    critical = layers.critical_shear(1.0, 1.0, 0.8)
     for factor, cells in ((0.0, 0), (0.5, 0), (0.999, 0), (1.01, 20), (1.3, 20)):
         model = axial(
             np.arange(21) * 0.05,
@@ -155,10 +158,10 @@ def test_the_margin_is_one_at_rest_and_negative_where_speeds_are_complex():
             0.0,
             level=2.0,
             r=0.8,
-            friction=0.0,
+            m=0.0,
             walls=(2, 2),
         )
         samples, _ = advance(model, steps=0)
-        assert samples[0, k.COMPLEX] == cells
-        margin = samples[0, k.MARGIN]
+        assert samples[0, columns.COMPLEX] == cells
+        margin = samples[0, columns.MARGIN]
         assert margin == 1 if factor == 0 else 0 < margin < 1 if factor < 1 else margin < 0

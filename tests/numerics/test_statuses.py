@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from states import advance, axial
 
-from subslide.fields import STATUSES
 from subslide.kernels import clock as k
+from subslide.naming import STATUSES
 from subslide.solver import ENDED, solve
 from subslide.study.config import make_point
 

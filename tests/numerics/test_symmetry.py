@@ -6,7 +6,7 @@ import pytest
 from states import advance, inner, plane
 
 from subslide.kernels import clock as k
-from subslide.kernels.viscosity import SCHEMES
+from subslide.keys.names import SCHEMES
 from subslide.points import Point
 from subslide.solver import solve
 
@@ -60,7 +60,7 @@ def moved(state, order, scheme):
     edges = np.linspace(-1, 1, len(state[0]) + 1)
     depths = {"h1": state[0], "h2": state[3]}
     speeds = {name: state[names.index(name)] for name in ("u1", "v1", "u2", "v2")}
-    model = plane(edges, **depths, **speeds, level=1.0, order=order, scheme=scheme, friction=0.3)
+    model = plane(edges, **depths, **speeds, level=1.0, order=order, scheme=scheme, m=0.3)
     samples, outcome = advance(model, stop=0.3)
     assert outcome == k.REACHED
     assert len(samples) > 10
@@ -90,7 +90,7 @@ def ellipse(n, turned):
     x, y = (s * (x + y), s * (y - x)) if turned else (x, y)
     inside = (x / 1.2) ** 2 + (y / 0.8) ** 2 <= 1
     h2 = inside.reshape(n, 8, n, 8).mean(axis=(1, 3))
-    model = plane(edges, 2 - h2, h2, level=2.0, order=2, friction=1.0)
+    model = plane(edges, 2 - h2, h2, level=2.0, order=2, m=1.0)
     advance(model, stop=1.2)
     h = inner(model, "h2")
     middle = n // 2
@@ -116,7 +116,7 @@ def test_a_state_that_does_not_vary_along_y_stays_a_line(order):
     edges = np.linspace(-1, 1, 33)
     x = (edges[1:] + edges[:-1]) / 2
     h2 = np.tile(np.where(x < 0, 1.0, 0.0), (32, 1))
-    model = plane(edges, 2 - h2, h2, level=2.0, friction=0.5, order=order)
+    model = plane(edges, 2 - h2, h2, level=2.0, m=0.5, order=order)
     advance(model, stop=0.3)
     np.testing.assert_array_equal(inner(model, "h2"), inner(model, "h2")[:1].repeat(32, axis=0))
     np.testing.assert_array_equal(inner(model, "v2"), 0)
@@ -136,7 +136,7 @@ def test_tangential_velocity_is_carried_by_the_mass_that_crosses_an_edge(order):
             u2=u,
             v1=v,
             v2=2 * v,
-            friction=0.0,
+            m=0.0,
             order=order,
             walls=(False,) * 4,
         )

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from states import advance, axial, inner, plane
 
-from subslide.exact.shear import base, critical_shear, growth_rate
+from subslide.exact.shear import growth_rate
 from subslide.kernels import clock as k
-from subslide.kernels.hyperbolicity import TREATMENTS, is_complex
+from subslide.kernels.hyperbolicity import FLAGS as TREATMENTS
+from subslide.kernels.hyperbolicity import is_complex
+from subslide.scenes.shear import base, critical_shear
 from subslide.solver import solve
 from subslide.study import config
 

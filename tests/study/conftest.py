@@ -23,6 +23,7 @@ def made_up_run(point: Point, steps: int = 20, grown: int = 0, **changes) -> Sim
     run = SimpleNamespace(
         point=point,
         model="radial" if point.model == "auto" else point.model,
+        model_reason="made up",
         dx=point.dx,
         x=x,
         time=time,

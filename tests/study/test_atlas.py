@@ -5,12 +5,11 @@ import pytest
 
 from subslide import exact
 from subslide.__main__ import main
-from subslide.jobs import read_batch
 from subslide.pages import renewal
 from subslide.records import netcdf as records
 from subslide.results import Results
-from subslide.study import batches as ledger
-from subslide.study import config
+from subslide.study import batches, config
+from subslide.study.batches import read_batch
 from subslide.tables import atlas
 
 COLUMN = {"model": "radial", "boundary": "wall", "figures": "none"}
@@ -22,7 +21,7 @@ def folder(tmp_path, make_run, write_tables):
 
     def finish(change, **values):
         study = config.make_study({"study": "t", **COLUMN, **values})
-        for name in ledger.plan(study, tmp_path, extend=True).batches:
+        for name in batches.plan(study, tmp_path, extend=True).batches:
             (tmp_path / "records").mkdir(exist_ok=True)
             points = read_batch(tmp_path / "batches" / f"{name}.json")
             runs = [make_run(point, **{"energy": falling(point), **change(point)}) for point in points]

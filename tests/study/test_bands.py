@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from subslide.__main__ import main
-from subslide.jobs import read_batch
 from subslide.records import netcdf as records
-from subslide.study import batches as ledger
-from subslide.study import config
+from subslide.study import batches, config
+from subslide.study.batches import read_batch
 from subslide.tables import bands
 from subslide.tables._convergence import CONVERGING, NOT_CONVERGED
 
@@ -23,7 +22,7 @@ def finish(tmp_path, write_tables):
 
     def finish(make, **axes):
         study = config.make_study({"study": "t", "model": "radial", "bands": True, "cells": 160, **axes})
-        plan = ledger.plan(study, tmp_path, extend=True)
+        plan = batches.plan(study, tmp_path, extend=True)
         (tmp_path / "records").mkdir(exist_ok=True)
         for name in plan.batches:
             points = read_batch(tmp_path / "batches" / f"{name}.json")

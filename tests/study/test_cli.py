@@ -8,7 +8,7 @@ import time
 import pytest
 
 from subslide.__main__ import main
-from subslide.keys import schema
+from subslide.keys import schema, words
 from subslide.points import RUN_KEYS
 from subslide.records.netcdf import read
 
@@ -94,10 +94,10 @@ def test_help_states_unit_default_and_range_of_every_key(capsys):
         assert "--" + key.replace("_", "-") in text
         about = schema.properties()[key]
         if about.get("type") in ("number", "integer"):
-            assert schema.allowed(key) in text
+            assert words.allowed(key) in text
             assert f"[default: {about['default']}]" in text
-    for words in ("[degree]", "[m]", "Exit status"):
-        assert words in text
+    for part in ("[degree]", "[m]", "Exit status"):
+        assert part in text
 
 
 def test_check_tells_what_a_study_holds(capsys, root):
@@ -133,18 +133,17 @@ def test_a_warm_run_starts_light():
 
 
 def test_a_batch_leaves_a_checksum_beside_its_record(capsys):
-    from subslide import jobs
-    from subslide.study import batches as ledger
-    from subslide.study import config
+    from subslide.files import file_hash
+    from subslide.study import batches, config
 
     study = config.make_study({"study": "t", "a_H": [1, 2], "model": "radial", "cells": 20, "t_end": 0.02})
     from pathlib import Path
 
-    plan = ledger.plan(study, Path("t"), extend=True)
+    plan = batches.plan(study, Path("t"), extend=True)
     assert main(["batch", f"t/batches/{next(iter(plan.batches))}.json", "-o", "b.nc"]) == 0
     assert capsys.readouterr().out.count("\n") == 3
     assert read("b.nc")[0]["id"].values.tolist() == [p.id for p in study.points]
-    assert Path("b.nc.sha256").read_text() == f"{jobs.file_hash('b.nc')}  b.nc\n"
+    assert Path("b.nc.sha256").read_text() == f"{file_hash('b.nc')}  b.nc\n"
 
 
 @pytest.mark.parametrize("damage", ["a byte", "half", "nothing left"])
@@ -166,8 +165,8 @@ def test_a_damaged_record_gets_one_line(damage, capsys, make_run, write_tables):
     content[len(content) // 2] ^= 1
     record.write_bytes({"a byte": content, "half": content[: len(content) // 2], "nothing left": b""}[damage])
     verbs = [["table", name, "study"] for name in ("runs", "timing", "series")]
-    for words in (*verbs, ["tables", "study"], ["figure", "fig05_h2_by_r", "--results", "study", "-o", "."]):
-        assert main(words) == 1
+    for call in (*verbs, ["tables", "study"], ["figure", "fig05_h2_by_r", "--results", "study", "-o", "."]):
+        assert main(call) == 1
         out, err = capsys.readouterr()
         assert out == ""
         assert err.startswith(f"subslide: {record}: ")

@@ -5,7 +5,7 @@ import re
 import pytest
 
 from subslide import catalogue, pages
-from subslide.keys import schema
+from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS, Point
 from subslide.study import config
@@ -201,7 +201,7 @@ def test_defaults_of_points_are_those_of_the_schema():
 def test_every_key_is_described():
     for key, about in schema.properties().items():
         assert about["description"]
-        assert schema.allowed(key)
+        assert words.allowed(key)
         assert "default" in about or key == "study"
 
 

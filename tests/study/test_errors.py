@@ -6,13 +6,12 @@ import pytest
 
 from subslide import exact
 from subslide.__main__ import main
-from subslide.jobs import read_batch
 from subslide.keys.schema import ConfigError
 from subslide.pages import renewal, verification
 from subslide.records import netcdf as records
 from subslide.results import Results
-from subslide.study import batches as ledger
-from subslide.study import config
+from subslide.study import batches, config
+from subslide.study.batches import read_batch
 from subslide.tables import _norms, _orders, errors
 
 WAVE = {
@@ -30,7 +29,7 @@ def folder(tmp_path, make_run, write_tables):
 
     def finish(shift, **values):
         study = config.make_study({"study": "t", "t_end": 0.5, "snapshot_times": [0], **values})
-        for name in ledger.plan(study, tmp_path, extend=True).batches:
+        for name in batches.plan(study, tmp_path, extend=True).batches:
             (tmp_path / "records").mkdir(exist_ok=True)
             points = read_batch(tmp_path / "batches" / f"{name}.json")
             records.write(tmp_path / "records" / f"{name}.nc", [solved(make_run, p, shift) for p in points])

@@ -1,13 +1,15 @@
 """Ids depend on values alone: not on how numbers are written, nor on the order of keys, nor on other points."""
 
 import math
-from dataclasses import replace
+import pickle
+from dataclasses import FrozenInstanceError, replace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from subslide import points
+from subslide.keys import schema
 from subslide.points import Point
 from subslide.study import config
 
@@ -20,10 +22,38 @@ OTHER = {
     "fields": True,
 }  # fmt: skip
 
+PINNED = (
+    (Point(), "p51850e7838c3"),
+    (Point(a_H=10, r=0.0, model="quarter", order=1, front_flux="hll"), "pda00b8352ba9"),
+    (
+        Point(
+            scene="ellipse", scene_options=(("angle", 30.0), ("elongation", 2.0)), model="plane", fields=True
+        ),
+        "pde12b49a703e",
+    ),
+    (
+        Point(
+            delta=20,
+            t_end=0.5,
+            snapshot_times=(0.0, 0.1),
+            cells=40,
+            dtype="float32",
+            friction="voellmy",
+            xi=100,
+        ),
+        "p035ec6ac027f",
+    ),
+    (
+        Point(treatment="stop", friction_in_viscosity=False, radius=1, g=1.62, cfl=0.45, boundary="wall"),
+        "pdb862e916bc7",
+    ),
+)
+
 
 def test_ids_are_pinned():
     """A changed id makes every finished study run again: change it only with intent."""
-    assert Point().id == "p51850e7838c3"
+    for point, name in PINNED:
+        assert point.id == name
 
 
 @pytest.mark.parametrize("key", points.RUN_KEYS)
@@ -61,10 +91,46 @@ def test_similar_points_share_a_key():
         Point(a_2=1.0, delta=30.0),
         Point(a_2=0.56, delta=math.degrees(math.atan(0.56 * math.tan(math.pi / 6)))),
     )
-    assert points.similarity_key(first)[:2] == points.similarity_key(second)[:2]
-    assert points.similarity_key(first)[2] == pytest.approx(points.similarity_key(second)[2], rel=1e-6)
+    assert first.similarity_key[:2] == second.similarity_key[:2]
+    assert first.similarity_key[2] == pytest.approx(second.similarity_key[2], rel=1e-6)
 
 
 def test_cell_size_follows_the_radius():
     assert Point(cells=200).dx == pytest.approx(0.003)
     assert Point(cells=200, radius=705.0).dx == pytest.approx(30.0)
+
+
+def test_a_point_is_made_of_the_keys_of_a_run_and_cannot_be_changed():
+    assert tuple(points.to_dict(Point())) == points.RUN_KEYS
+    assert set(schema.properties()) - set(points.RUN_KEYS) == {
+        "study",
+        "figures",
+        "bands",
+        "cases",
+        "numerics",
+    }
+    assert points.to_dict(Point()) == {key: schema.properties()[key]["default"] for key in points.RUN_KEYS}
+    assert pickle.loads(pickle.dumps(Point(r=0.1))) == Point(r=0.1)
+    assert len({Point(), Point(r=0.4), Point(r=0.1)}) == 2
+    with pytest.raises(FrozenInstanceError):
+        Point().r = 0.1
+    with pytest.raises(TypeError, match="foo"):
+        Point(foo=1)
+
+
+def test_a_point_knows_what_follows_from_it():
+    point = Point(a_H=2, a_2=0.5, radius=0.2, g=10, delta=45, cells=101, xi=40)
+    assert point.column_height == pytest.approx(0.1)
+    assert (point.level, point.scaled_level) == (pytest.approx(0.3), 3)
+    assert point.time_scale == pytest.approx(0.2)
+    assert point.speed_scale == pytest.approx(1)
+    assert point.speed_scale * point.time_scale == pytest.approx(point.radius)
+    assert point.wave_speed == pytest.approx(math.sqrt(3))
+    assert point.friction_number == pytest.approx(2)
+    assert point.turbulence == pytest.approx(0.5)
+    assert point.dx == pytest.approx(point.scaled_dx * point.radius)
+    assert point.half_cells == 51
+    assert point.half_box == pytest.approx(51 * 0.6 / 101 / 0.0705)
+    assert point.edge_time == pytest.approx((0.3 / 0.0705 - 1) * 0.2 / math.sqrt(3))
+    assert Point().profile_times == (0, 0.08, 0.16, 0.24, 0.54)
+    assert Point(snapshot_times=(0.2, 0.1)).profile_times == (0.1, 0.2)

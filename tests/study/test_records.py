@@ -12,7 +12,7 @@ import xarray as xr
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from subslide import fields, source_hash
+from subslide import naming, source_hash
 from subslide.files import replacing, write_json
 from subslide.points import Point
 from subslide.records import netcdf as records
@@ -54,7 +54,7 @@ def test_layout_is_as_promised(record):
             assert data[name].attrs["units"]
             assert data[name].attrs["long_name"]
         assert data.attrs["Conventions"] == "CF-1.11"
-        assert data["front_threshold"].values.tolist() == list(fields.FRONT_THRESHOLDS)
+        assert data["front_threshold"].values.tolist() == list(naming.FRONT_THRESHOLDS)
         assert data["status"].values.tolist() == ["ok"]
 
 

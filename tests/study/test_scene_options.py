@@ -9,13 +9,12 @@ import pytest
 
 from subslide import points
 from subslide.__main__ import main
-from subslide.jobs import read_batch
-from subslide.keys import schema
+from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
 from subslide.records.netcdf import read
 from subslide.scenes import NAMES, load
-from subslide.study import batches as ledger
-from subslide.study import config
+from subslide.study import batches, config
+from subslide.study.batches import read_batch
 
 MISTAKES = {
     ("elipse", ""): ("scene: elipse is not allowed", "did you mean 'ellipse'?"),
@@ -81,7 +80,7 @@ def test_every_scene_and_option_is_described(name):
     assert module.__doc__
     for about in module.OPTIONS.values():
         assert about["description"]
-        assert schema.range_of(about)
+        assert words.range_of(about)
         if "default" in about:
             assert schema.conform(about, about["default"], name) == about["default"]
 
@@ -147,7 +146,7 @@ def test_a_run_tells_its_model_and_why(capsys, tmp_path):
 def test_a_study_of_scenes_goes_from_points_to_tables(tmp_path, capsys, write_tables):
     values = {"scene": "ellipse", "scene_options": {"elongation": [1, 1.5]}, "cells": 20, "t_end": 0.02}
     study = config.make_study({"study": "t", **values})
-    plan = ledger.plan(study, tmp_path, extend=True)
+    plan = batches.plan(study, tmp_path, extend=True)
     assert {kernels.split(":")[0] for kernels in plan.batches.values()} == {"radial", "quarter"}
     (tmp_path / "records").mkdir()
     for name in plan.batches:
@@ -182,7 +181,7 @@ def test_a_changed_raster_is_noticed_by_its_batch(tmp_path):
     study = config.make_study(
         {"study": "t", "scene": "raster", "scene_options": {"file": str(path)}, "cells": 20}
     )
-    plan = ledger.plan(study, tmp_path / "t", extend=True)
+    plan = batches.plan(study, tmp_path / "t", extend=True)
     spec = tmp_path / "t" / "batches" / f"{next(iter(plan.batches))}.json"
     assert [p.id for p in read_batch(spec)] == [study.points[0].id]
     write(0.02)

@@ -4,11 +4,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from subslide.jobs import read_batch
 from subslide.records import netcdf as records
 from subslide.results import Results
-from subslide.study import batches as ledger
-from subslide.study import config
+from subslide.study import batches, config
+from subslide.study.batches import read_batch
 from subslide.tables import _write, runs, series
 
 
@@ -18,7 +17,7 @@ def finished(tmp_path, make_run, write_tables):
 
     def finish(changes=None, **axes):
         study = config.make_study({"study": "t", "model": "radial", "cells": 40, **axes})
-        plan = ledger.plan(study, tmp_path, extend=True)
+        plan = batches.plan(study, tmp_path, extend=True)
         (tmp_path / "records").mkdir(exist_ok=True)
         for name in plan.batches:
             points = read_batch(tmp_path / "batches" / f"{name}.json")

@@ -7,13 +7,12 @@ import pandas as pd
 import pytest
 
 from subslide.__main__ import main
-from subslide.jobs import read_batch
 from subslide.keys.schema import ConfigError
 from subslide.pages import work_precision as page_of
 from subslide.points import PAPER_RADIUS, Point
 from subslide.records import netcdf as records
-from subslide.study import batches as ledger
-from subslide.study import config
+from subslide.study import batches, config
+from subslide.study.batches import read_batch
 from subslide.tables import _choices as words_of
 from subslide.tables import _problems as problems
 from subslide.tables import cheapest
@@ -52,7 +51,7 @@ def folder(tmp_path, make_run, write_tables):
     def finish(error=error_of, **values):
         study = config.make_study({**SWEEP, **values})
         (tmp_path / "records").mkdir(exist_ok=True)
-        for name in ledger.plan(study, tmp_path, extend=True).batches:
+        for name in batches.plan(study, tmp_path, extend=True).batches:
             points = read_batch(tmp_path / "batches" / f"{name}.json")
             runs = [solved(make_run, point, error(point)) for point in points]
             records.write(tmp_path / "records" / f"{name}.nc", runs)

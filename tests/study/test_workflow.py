@@ -164,7 +164,7 @@ def test_another_order_or_fewer_points_renew_the_tables_alone(project):
 def test_changed_code_runs_everything_again(project):
     source = shutil.copytree(project.root / "src", project.folder / "src")
     assert project.jobs("-n", PYTHONPATH=str(source)) == {}
-    with open(source / "subslide/fields.py", "a") as file:
+    with open(source / "subslide/naming.py", "a") as file:
         file.write("# a change\n")
     again = project.jobs("-n", PYTHONPATH=str(source))
     assert again == {"warm": 1, "batch": 1, **TABLES, "report": 1}

@@ -12,7 +12,7 @@ DRY_RUN = any(re.fullmatch("-n[a-z]*|--dry-?run", word) for word in sys.argv)
 shell.prefix(f"set -euo pipefail; export PATH={quote(str(Path(sys.executable).parent))}:$PATH; ")
 
 if workflow.is_main_process:
-    for record in ledger.damaged(RESULTS, PLAN.batches):
+    for record in batches.damaged(RESULTS, PLAN.batches):
         print(f"{record} does not match its checksum: it is deleted and solved again", file=sys.stderr)
         if not DRY_RUN:
             record.unlink()

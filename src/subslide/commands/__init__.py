@@ -6,7 +6,7 @@ Start-up is most of a radial run's time, so what a verb needs is imported when i
 import click
 
 import subslide
-from subslide.keys import schema
+from subslide.keys import words
 
 MODULES = tuple(f"{__name__}.{name}" for name in ("solving", "tabulating", "showing"))
 """Modules with verbs, in the order that help lists them."""
@@ -22,7 +22,7 @@ class Verbs(click.Group):
     def resolve_command(self, ctx, args):
         """Return the command that is called; UsageError, with what is allowed, if there is none."""
         if args and args[0] not in self.commands:
-            hint = schema.closest(args[0], self.commands)
+            hint = words.closest(args[0], self.commands)
             raise click.UsageError(
                 f"{args[0]}: there is no such command; allowed: {', '.join(self.commands)}{hint}"
             )

@@ -5,7 +5,7 @@ import gc
 import click
 
 from subslide.commands import cli
-from subslide.keys import schema
+from subslide.keys import schema, words
 from subslide.points import RUN_KEYS
 
 
@@ -18,7 +18,7 @@ def run_options(command):
         if about.get("type") == "boolean":
             option = click.option(f"{flag}/--no-{flag[2:]}", key, default=None, help=_help(key))
         else:
-            metavar = schema.metavar(key)
+            metavar = words.metavar(key)
             option = click.option(flag, key, metavar=metavar, help=f"{_help(key)}  [default: {default}]")
         command = option(command)
     return command
@@ -27,8 +27,8 @@ def run_options(command):
 def _help(key: str) -> str:
     """Return what help says of a key: its meaning, unit and range."""
     about = schema.properties()[key]
-    unit = f" [{schema.unit(key)}]" if schema.unit(key) else ""
-    choice = "" if "enum" in about or about.get("type") == "boolean" else f"; {schema.allowed(key)}"
+    unit = f" [{words.unit(key)}]" if words.unit(key) else ""
+    choice = "" if "enum" in about or about.get("type") == "boolean" else f"; {words.allowed(key)}"
     return f"{about['description']}{unit}{choice}"
 
 

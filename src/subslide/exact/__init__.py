@@ -1,46 +1,46 @@
 """Formulas that judge the solver: one exact solution a file, for the scene of the same name.
 
-`solution(point, x, time)` returns profiles {"h2": m, "eta": m} at the places x (m) and the time (s), NaN where no
-exact solution is known; or `stays(point)` returns whether the grains must not move at all. Functions beside it are in
-scaled variables unless they take g: lengths over R, depths over H2, speeds over sqrt(g H2).
+A module, found by listing this folder, has one of
+
+``solution(point, x, time) -> Profiles``
+    Profiles h2 and eta (m) at the places x (m) and the time (s), NaN where no exact solution is known.
+``stays(point) -> bool``
+    Whether the grains must not move at all.
+
+Functions beside it are in scaled variables unless they take g: lengths over R, depths over H2, speeds over sqrt(g H2).
+Formulas that the initial state needs too stand in the scene's own module.
 """
 
-import math
 from importlib import import_module
-from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 
-NAMES = tuple(sorted(path.stem for path in Path(__file__).parent.glob("[a-z]*.py")))
+from subslide import catalogue
+from subslide.points import Point
+
+Profiles = dict[str, np.ndarray]
+"""Depth h2 and displacement eta of the surface (m), each (n), by name."""
+
+NAMES = tuple(catalogue.names("exact"))
 """Scenes with an exact solution."""
 
 
-def load(name):
+def load(name: str) -> ModuleType:
     """Return the exact solution of the scene of that name."""
     return import_module(f"{__name__}.{name}")
 
 
-def scaled(point, x, time):
+def scaled(point: Point, x: float | np.ndarray, time: float) -> tuple[np.ndarray, float]:
     """Return x (m) and time (s) in scaled variables."""
-    return np.asarray(x, float) / point.radius, time / math.sqrt(point.radius / (point.g * point.a_2))
+    return np.asarray(x, float) / point.radius, time / point.time_scale
 
 
-def in_metres(point, h2, eta):
+def in_metres(point: Point, h2: float | np.ndarray, eta: float | np.ndarray) -> Profiles:
     """Return the profiles of scaled h2 and eta in m."""
-    height = point.a_2 * point.radius
-    return {"h2": h2 * height, "eta": eta * height}
+    return {"h2": h2 * point.column_height, "eta": eta * point.column_height}
 
 
-def half_box(point):
-    """Return the scaled half-width of the smallest box."""
-    return -(-point.cells // 2) * (0.6 / point.cells / 0.0705)
-
-
-def frictionless(point):
+def frictionless(point: Point) -> bool:
     """Return whether no friction law acts on the grains."""
     return point.friction == "coulomb" and point.delta == 0
-
-
-def friction_number(point):
-    """Return the scaled deceleration by friction of grains alone, tan(delta) / a_2."""
-    return math.tan(math.radians(point.delta)) / point.a_2

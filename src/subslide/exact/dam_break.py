@@ -9,13 +9,13 @@ import math
 
 import numpy as np
 
-from subslide.exact import friction_number, frictionless, half_box, in_metres, scaled
+from subslide.exact import Profiles, frictionless, in_metres, scaled
+from subslide.points import Point
+from subslide.scenes import options
+from subslide.scenes.dam_break import step
 
-DEFAULTS = {"layer": "grains", "downstream": 0.0}
-"""Options of the scene that a point leaves out."""
 
-
-def middle(left, right, g=1.0):
+def middle(left: float, right: float, g: float = 1.0) -> tuple[float, float, float]:
     """Return depth, speed and shock speed between the rarefaction and the shock (0 < right <= left).
 
     The middle depth h solves u = 2 (sqrt(g left) - sqrt(g h)) = (h - right) sqrt(g (1/h + 1/right) / 2), by bisection.
@@ -31,11 +31,13 @@ def middle(left, right, g=1.0):
     return h, u, h * u / (h - right) if h > right else math.sqrt(g * h)
 
 
-def depth(x, t, left=1.0, right=0.0, g=1.0):
+def depth(
+    x: float | np.ndarray, t: float, left: float = 1.0, right: float = 0.0, g: float = 1.0
+) -> np.ndarray:
     """Return the depth at x and t of a dam that parts depths left and right, without friction."""
     x = np.asarray(x, float)
     if t <= 0:
-        return np.where(x < 0, left, right)
+        return step(x, left, right)
     c = math.sqrt(g * left)
     fan = (2 * c - np.clip(x / t, -c, 2 * c)) ** 2 / (9 * g)
     if right == 0:
@@ -44,7 +46,7 @@ def depth(x, t, left=1.0, right=0.0, g=1.0):
     return np.where(x < (u - math.sqrt(g * h)) * t, fan, np.where(x < shock * t, h, right))
 
 
-def edge(t, friction, h0=1.0):
+def edge(t: float | np.ndarray, friction: float, h0: float = 1.0) -> float | np.ndarray:
     """Return where the depth ends on a dry bed: 2 c0 t - friction t^2 / 2, at rest at 2 h0 / friction.
 
     friction: deceleration by Coulomb friction, mu g or scaled (g = 1); 0 without.
@@ -55,34 +57,37 @@ def edge(t, friction, h0=1.0):
     return 2 * c * t - 0.5 * friction * t**2
 
 
-def edge_position(point, time):
+def edge_position(point: Point, time: float) -> float:
     """Return where the grains of a dry dam break end (m) at the time (s), were the depth traced to 0; grains alone."""
     _, t = scaled(point, 0.0, time)
-    return edge(t, friction_number(point)) * point.radius
+    return edge(t, point.friction_number) * point.radius
 
 
-def edge_known(point, time):
+def edge_known(point: Point, time: float) -> bool:
     """Return whether `edge_position` holds at the time (s): grains at r = 0 on a dry bed, within the box."""
-    own = {**DEFAULTS, **dict(point.scene_options)}
+    chosen = options(point)
     lone = (
-        own["layer"] == "grains" and own["downstream"] == 0 and point.r == 0 and point.friction == "coulomb"
+        chosen["layer"] == "grains"
+        and chosen["downstream"] == 0
+        and point.r == 0
+        and point.friction == "coulomb"
     )
-    return lone and edge_position(point, time) < half_box(point) * point.radius
+    return lone and edge_position(point, time) < point.half_box * point.radius
 
 
-def solution(point, x, time):
+def solution(point: Point, x: float | np.ndarray, time: float) -> Profiles:
     """Return h2 and eta (m) at x (m): of water alone; of grains at r = 0 without friction, whose water is not known.
 
     Known until a wave reaches the end of the box.
     """
-    own = {**DEFAULTS, **dict(point.scene_options)}
-    layer, downstream = own["layer"], own["downstream"]
+    chosen = options(point)
+    layer, downstream = chosen["layer"], chosen["downstream"]
     s, t = scaled(point, x, time)
     nothing = np.full(s.shape, np.nan)
-    left = 1.0 if layer == "grains" else 1.0 + point.a_H
+    left = 1.0 if layer == "grains" else point.scaled_level
     right = downstream * left
     fastest = 2 * math.sqrt(left) if right == 0 else max(middle(left, right)[2], math.sqrt(left))
-    if fastest * t > half_box(point):
+    if fastest * t > point.half_box:
         return in_metres(point, nothing, nothing)
     h = depth(s, t, left, right)
     if layer == "water":

@@ -8,13 +8,12 @@ import math
 
 import numpy as np
 
-from subslide.exact import friction_number, half_box, in_metres, scaled
+from subslide.exact import Profiles, in_metres, scaled
+from subslide.points import Point
+from subslide.scenes import options
 
-DEFAULTS = {"speed": 1.0}
-"""Options of the scene that a point leaves out."""
 
-
-def speed(t, start, friction, turbulence=0.0):
+def speed(t: float | np.ndarray, start: float, friction: float, turbulence: float = 0.0) -> np.ndarray:
     """Return u at t of du/dt = -friction - turbulence u^2 from u = start until it is 0."""
     t = np.asarray(t, float)
     if turbulence == 0:
@@ -25,21 +24,23 @@ def speed(t, start, friction, turbulence=0.0):
     return fall * np.tan(np.maximum(0.0, math.atan(start / fall) - math.sqrt(friction * turbulence) * t))
 
 
-def speed_of(point, time):
+def speed_of(point: Point, time: float | np.ndarray) -> np.ndarray:
     """Return the speed (m/s) of the layer of a point at the time (s); NaN for a law without a formula."""
     if point.friction not in ("coulomb", "voellmy"):
         return np.full(np.shape(time), np.nan)
     _, t = scaled(point, 0.0, time)
-    turbulence = point.g / (point.xi * point.a_2) if point.friction == "voellmy" else 0.0
-    start = {**DEFAULTS, **dict(point.scene_options)}["speed"]
-    u = speed(t, start, (1 - point.r) * friction_number(point), turbulence)
-    return u * math.sqrt(point.g * point.a_2 * point.radius)
+    turbulence = point.turbulence if point.friction == "voellmy" else 0.0
+    start = options(point)["speed"]
+    u = speed(t, start, (1 - point.r) * point.friction_number, turbulence)
+    return u * point.speed_scale
 
 
-def solution(point, x, time):
+def solution(point: Point, x: float | np.ndarray, time: float) -> Profiles:
     """Return h2 and eta (m) at x (m): both stay as they are until a wave comes from an end of the box."""
     s, t = scaled(point, x, time)
-    start = {**DEFAULTS, **dict(point.scene_options)}["speed"]
-    fastest = start + math.sqrt(1.0 + point.a_H)  # also of the shock from the wall that the layer runs into
-    reached = np.abs(s) > half_box(point) - fastest * t
+    start = options(point)["speed"]
+    fastest = start + math.sqrt(
+        point.scaled_level
+    )  # also of the shock from the wall that the layer runs into
+    reached = np.abs(s) > point.half_box - fastest * t
     return in_metres(point, np.where(reached, np.nan, 1.0), np.where(reached, np.nan, 0.0))

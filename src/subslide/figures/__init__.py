@@ -1,4 +1,4 @@
-"""Figures: each is one module of this folder, found by listing it.
+"""Figures: each is one module of this folder, found by listing it (see `subslide.catalogue`).
 
 A module has TITLE (text), CATEGORY (text: the heading in the report), NEEDS (for each key of a run, the
 values that a study must have for the figure to make sense) and `draw(results)`, which returns a

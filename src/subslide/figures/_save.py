@@ -5,7 +5,7 @@ from pathlib import Path
 
 from subslide import catalogue
 from subslide.files import replacing
-from subslide.keys import schema
+from subslide.keys import words
 from subslide.keys.schema import ConfigError
 
 
@@ -17,7 +17,7 @@ def save(name: str, results: Path, output: Path) -> list[Path]:
     known = catalogue.names("figures")
     if name not in known:
         raise ConfigError(
-            f"figure: {name} is not allowed; allowed: {', '.join(known) or 'none'}{schema.closest(name, known)}"
+            f"figure: {name} is not allowed; allowed: {', '.join(known) or 'none'}{words.closest(name, known)}"
         )
     if not (results / "tables" / "runs.csv").is_file():
         raise ConfigError(

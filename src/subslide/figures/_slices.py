@@ -5,9 +5,9 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from subslide import fields
-from subslide.fields import FINISHED
+from subslide import naming
 from subslide.figures import _style, _words
+from subslide.naming import FINISHED
 
 PREFERRED = {
     "scene": "cylinder",
@@ -142,7 +142,7 @@ def trouble(runs, by=("a_H", "r"), most=6, mark=""):
             "(" + ", ".join(_words.equation(key, row[key]) for key in by) + ")" for _, row in rows.iterrows()
         ]
         more = f" and {len(which) - most} more" if len(which) > most else ""
-        meaning = fields.STATUSES.get(status, "see the status in the table of runs")
+        meaning = naming.STATUSES.get(status, "see the status in the table of runs")
         end = f"; {mark}" if mark and status not in FINISHED else ""
         notes.append(f"Status {status} ({meaning}{end}): {', '.join(which[:most])}{more}.")
     return notes

@@ -4,9 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from subslide import fields
+from subslide import naming
 
-THRESHOLD = fields.FRONT_THRESHOLDS[0]
+THRESHOLD = naming.FRONT_THRESHOLDS[0]
 """Depth that defines the front in figures, as a fraction of H2."""
 FRONT = f"front where $h_2$ = {THRESHOLD:.0%} of $H_2$"
 SYMBOLS = {
@@ -23,7 +23,7 @@ SYMBOLS = {
     "L_f": "$L_f$",
     "max_abs_eta": "max$\\,|\\eta|$",
 }
-"""Symbols of `subslide.fields` as print sets them."""
+"""Symbols of `subslide.naming` as print sets them."""
 
 
 class Unit(NamedTuple):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from subslide import fields
+from subslide import naming
 from subslide.figures import _profiles, _slices, _style, _words
 from subslide.laboratory import lube as laboratory
 
@@ -82,11 +82,11 @@ def _foot(ax, shapes, radius, height, runout):
             end.x / radius, 100 * end.values / height, **_style.line(look), label=_words.equation("a_H", a_H)
         )
         ax.plot(runout, depths[a_H], look["marker"], color=look["color"], markeredgewidth=0, markersize=5)
-    for threshold in fields.FRONT_THRESHOLDS:
+    for threshold in naming.FRONT_THRESHOLDS:
         ax.axhline(100 * threshold, color=_style.GREY, linewidth=0.7, linestyle=":")
     ax.axvline(runout, ymax=0.72, **LAW, label=f"laboratory law, {runout:.2f} $R$")
     ax.set(xlabel="$x/R$", ylabel="$h_2/H_2$ (%)", ylim=(0, FOOT))
-    ax.set_yticks([100 * t for t in fields.FRONT_THRESHOLDS] + [10, 15, 20, 25])
+    ax.set_yticks([100 * t for t in naming.FRONT_THRESHOLDS] + [10, 15, 20, 25])
     ax.legend(loc="upper right", frameon=True, edgecolor="white", framealpha=1)
     return depths
 

@@ -3,8 +3,8 @@
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter, ScalarFormatter
 
-from subslide.fields import FINISHED
 from subslide.figures import _atlas, _style, _words
+from subslide.naming import FINISHED
 from subslide.points import Point
 
 TITLE = "Errors from 25 to 1600 cells, in double and single precision"

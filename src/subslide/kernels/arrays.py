@@ -1,6 +1,18 @@
 """The arrays that kernels work on. All are padded by GHOSTS cells on each side and scaled: depths by H2, lengths by R,
 speeds by sqrt(g H2), time by R / sqrt(g H2), so that g = 1 and every threshold is a plain number.
 Deviation from section 4 of the paper, which scales both layers by H1.
+
+Along a row of n cells, states stand in cells, reconstructed states at the two faces of each cell, and fluxes at edges.
+Edge k is between its two cells, and between the right face of the one and the left face of the other:
+
+    edge e                 0        1        2                n-1       n
+    padded      +----+----|L  c  R|L  c  R|L  c  R|  ...  |L  c  R|----+----+
+    cell i        0    1      2       3       4              n+1    n+2  n+3
+                 ghosts                                               ghosts
+
+so the edge e = k has the cell i = k + GHOSTS - 1 before it and the cell k + GHOSTS after it. `Cells`, `Side` and
+`CellTerms` are indexed by padded cells i, `Fluxes` by edges e. In the plane rows lie along x, the row below first;
+fluxes along y lie between two padded rows, and their edge e = k is between the cells k + GHOSTS of both.
 """
 
 from typing import NamedTuple
@@ -12,45 +24,47 @@ from subslide.kernels.jit import inlined
 GHOSTS = 2
 """The slope in the first ghost cell needs the second."""
 
+BEFORE = GHOSTS - 1
+"""Edge k of a row is between the padded cells k + BEFORE and k + GHOSTS."""
 
-class Scene(NamedTuple):
-    """Scaled numbers of a run, all of the working precision (flags and counts are integers).
 
-    The kernels compiled for it are lean: they leave out what the fields from `speeds` on choose.
+class Settings(NamedTuple):
+    """Scaled numbers of a run and choices of its method, reals in the working precision, flags and counts integers.
+
+    The kernels compiled for it are lean: they leave out what the choices from `speeds` on can do.
     """
 
     layers: int
-    scheme: int
+    scheme: int  # place of the name in `keys.names.SCHEMES`; so are the flags below in theirs
     order: int
     r: float
-    friction: float  # tan(delta) R / H2
+    m: float  # tan(delta) R / H2, the friction number
     dx: float
     cfl: float
     dry_depth: float
     exact_front: int  # 1: grains run onto a dry bed with the exact flux of grains alone
     lanes: int  # numbers in 64 bytes: a vector
-    speeds: int = 0  # see `waves.SPEEDS`
-    law: int = 0  # see `friction.LAWS`
-    turbulence: float = 0.0  # g / (xi a_2)
-    friction_rise: float = 0.0  # (tan(delta_2) - tan(delta)) R / H2
-    depths: float = 0.0  # H2 / pouliquen_length
-    treatment: int = 0  # see `interlayer.TREATMENTS`
-    as_printed: int = 0  # see `printed.AS_PRINTED`
+    speeds: int = 0
+    law: int = 0
+    law_1: float = 0.0  # numbers of the friction law, see `friction`
+    law_2: float = 0.0
+    law_3: float = 0.0
+    treatment: int = 0
+    as_printed: int = 0
     printed_bound: float = 0.0  # (1-r) tan(delta) g / sqrt(g H2), numbers in SI units: see `printed.braking`
     viscous_friction: int = 1  # 0: the viscosity does not see what friction holds
 
 
-GeneralScene = NamedTuple("GeneralScene", [*Scene.__annotations__.items(), ("general", int)])
-"""A Scene for which kernels with every choice are compiled; see `is_general`."""
+GeneralSettings = NamedTuple("GeneralSettings", [*Settings.__annotations__.items(), ("general", int)])
+"""Settings for which kernels with every choice are compiled; see `is_general`."""
+
+LEAN_FIELDS = len(Settings._fields)
 
 
 @inlined
 def is_general(s):
     """Return whether the kernels are compiled with every choice, known by the type so that lean ones drop the rest."""
     return len(s) > LEAN_FIELDS
-
-
-LEAN_FIELDS = len(Scene._fields)
 
 
 class Cells(NamedTuple):
@@ -70,11 +84,11 @@ class Cells(NamedTuple):
     slow_y: np.ndarray
     fast_y: np.ndarray
     pace: np.ndarray  # fastest wave along x plus fastest along y
-    ratio: np.ndarray  # scratch of `row_hyperbolicity`
+    ratio: np.ndarray  # scratch of `measures.hyperbolicity`
 
 
 class Side(NamedTuple):
-    """State at one side of an edge."""
+    """State at one face of each cell, or of the face beside an edge."""
 
     eta: np.ndarray
     h1: np.ndarray
@@ -99,8 +113,8 @@ class Fluxes(NamedTuple):
     stuck: np.ndarray  # 1 where friction holds the grains on both sides at rest, else 0
 
 
-class Marks(NamedTuple):
-    """What a cell's neighbours decide before it may be updated."""
+class CellTerms(NamedTuple):
+    """What a cell's update needs beside the fluxes through its edges."""
 
     keep1: np.ndarray  # fraction of the mass flux out of the cell that its water can feed
     keep2: np.ndarray  # the same for grains
@@ -109,6 +123,45 @@ class Marks(NamedTuple):
     inner_p2x: np.ndarray
     inner_p1y: np.ndarray
     inner_p2y: np.ndarray
+
+
+class Mesh(NamedTuple):
+    """Sizes along a row of n cells: radii, areas and lengths over R.
+
+    In the plane cells are squares, `area` and `inverse_volume` are not used, and `weight` and `total` are of one row.
+    """
+
+    area: np.ndarray  # of each edge (n + 1): its radius in round scenes, 1 on a line
+    inverse_volume: np.ndarray  # one over the size of each cell (n): 1 / (radius dx), or 1 / dx
+    source: np.ndarray  # of each padded cell: -1 / (2 radius) in round scenes, 0 on a line
+    weight: np.ndarray  # volume of each padded cell per depth, 0 for ghosts
+    total: np.ndarray  # sums of `weight` from the left, float64
+
+
+class Watch(NamedTuple):
+    """Numbers by which a run is watched, the same at every step; rows and columns are padded."""
+
+    level: float  # undisturbed surface
+    least_grains: float  # volume of grains below which too much has left the box
+    margin: float  # of the discriminant: below it round-off decides
+    still1: float  # depths of still water, where nothing need be solved
+    still2: float
+    start: int  # columns [start, stop) and rows [bottom, top) where the surface is watched
+    stop: int
+    bottom: int
+    top: int
+    beside: int  # first column beyond the axis
+    beyond: int  # on a line or radius: first column beyond R
+    below_axis: int  # in the plane: the two rows beside the x axis
+    above_axis: int
+
+
+class Track(NamedTuple):
+    """What a time loop is asked for and answers: see `clock` and `samples`."""
+
+    clock: np.ndarray
+    samples: np.ndarray
+    counters: np.ndarray
 
 
 def allocate(kind, shape, dtype):
@@ -124,3 +177,43 @@ def allocate(kind, shape, dtype):
         buffer = np.zeros(size + shift, dtype=dtype)
         arrays.append(buffer[shift:].reshape(shape))
     return kind(*arrays)
+
+
+@inlined
+def row_of(c, j):
+    """Return row j of `Cells` in the plane as `Cells` of one row."""
+    return Cells(
+        c.h1[j],
+        c.u1[j],
+        c.v1[j],
+        c.h2[j],
+        c.u2[j],
+        c.v2[j],
+        c.eta[j],
+        c.head2[j],
+        c.square2[j],
+        c.slow_x[j],
+        c.fast_x[j],
+        c.slow_y[j],
+        c.fast_y[j],
+        c.pace[j],
+        c.ratio[j],
+    )
+
+
+@inlined
+def side_row(side, j):
+    """Return row j of a `Side` in the plane."""
+    return Side(side.eta[j], side.h1[j], side.u1[j], side.v1[j], side.h2[j], side.u2[j], side.v2[j])
+
+
+@inlined
+def side_row_turned(side, j):
+    """Return row j of a `Side` seen along y: its velocities change places."""
+    return Side(side.eta[j], side.h1[j], side.v1[j], side.u1[j], side.h2[j], side.v2[j], side.u2[j])
+
+
+@inlined
+def flux_row(f, j):
+    """Return row j of `Fluxes` in the plane."""
+    return Fluxes(f.f1[j], f.m1[j], f.t1[j], f.p1[j], f.f2[j], f.m2[j], f.t2[j], f.p2[j], f.stuck[j])

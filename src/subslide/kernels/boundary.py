@@ -2,9 +2,10 @@
 
 from subslide.kernels.arrays import GHOSTS
 from subslide.kernels.jit import inlined
+from subslide.keys.names import BOUNDARIES, flags
 
-BOUNDARIES = {"open": 0, "wall": 1, "periodic": 2}
-OPEN, WALL, PERIODIC = BOUNDARIES.values()
+FLAGS = flags(BOUNDARIES)
+OPEN, WALL, PERIODIC = FLAGS["open"], FLAGS["wall"], FLAGS["periodic"]
 
 
 @inlined

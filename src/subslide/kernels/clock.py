@@ -10,10 +10,6 @@ NOW, STOP, REST_FROM, REST_SINCE = range(4)
 # Indices into the int64 array `counters`.
 SAMPLES, OUTCOME = range(2)
 
-# Columns of a sample.
-TIME, FRONT, ETA, ETA_OUTSIDE, GRAINS, WATER, ENERGY, COMPLEX, MARGIN = 0, 1, 4, 5, 6, 7, 8, 9, 10
-COLUMNS = 11
-
 SMALLEST_STEP = 1e-6
 """In units of dx / sqrt(g H2): no wave of a run that can finish is a million times faster than sqrt(g H2)."""
 
@@ -25,6 +21,19 @@ def next_step(now, stop, stable):
     if left <= stable:
         return left
     return min(stable, 0.5 * left) if left < 2.0 * stable else stable
+
+
+@inlined
+def stable_step(s, pace, left):
+    """Return the largest stable step of waves of a pace, or the time that is left where nothing moves."""
+    real = type(pace)
+    return s.cfl * s.dx / pace if pace > real(0) else real(left)
+
+
+@inlined
+def after(now, step, dt, stop):
+    """Return the time after a step, which is `dt` in the working precision; exactly `stop` if the step ends there."""
+    return stop if now + step >= stop else now + dt
 
 
 @inlined

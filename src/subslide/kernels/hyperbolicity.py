@@ -12,9 +12,10 @@ from subslide.kernels.arrays import GHOSTS, is_general
 from subslide.kernels.clock import NEGATIVE, NOT_FINITE, SHEARED
 from subslide.kernels.jit import inlined
 from subslide.kernels.waves import discriminant
+from subslide.keys.names import TREATMENTS, flags
 
-TREATMENTS = {"real": 0, "hll": 1, "friction": 2, "stop": 3}
-REAL_PARTS, HLL_THERE, FRICTION, STOP = TREATMENTS.values()
+FLAGS = flags(TREATMENTS)
+HLL_THERE, RUB, STOP = FLAGS["hll"], FLAGS["friction"], FLAGS["stop"]
 
 HALVINGS = 60
 """Of the share of a shear that is hyperbolic: more than the digits of a double."""

@@ -1,19 +1,19 @@
-"""One step in the plane, as work on rows of ny x nx square cells (y first).
+"""One step in the plane, as work on rows of ny x nx square cells (y first), numbered as drawn in `arrays`.
 
-Edge (j, k) of `fx` lies between the padded cells k + 1 and k + 2 of the padded row j + 2; `fy` likewise along y.
-Loops over columns start..stop-1 count from the smallest index that they need.
+Row j without ghosts is the padded row j + GHOSTS. Loops over columns start..stop-1 count from the smallest index that
+they need.
 """
 
 from subslide.kernels.active import joint, joint_wet
-from subslide.kernels.arrays import GHOSTS, Side, is_general
+from subslide.kernels.arrays import GHOSTS, is_general
 from subslide.kernels.boundary import WALL, copied_after, copied_before
-from subslide.kernels.edge import edge_fluxes, water_edge_fluxes
-from subslide.kernels.friction import COULOMB, further
-from subslide.kernels.friction.coulomb import head, holds
-from subslide.kernels.hyperbolicity import FRICTION, rub
+from subslide.kernels.edge.stuck import is_stuck
+from subslide.kernels.friction import COULOMB, remaining
+from subslide.kernels.friction.coulomb import head
+from subslide.kernels.hyperbolicity import RUB, rub
 from subslide.kernels.jit import inlined, part, unsigned
-from subslide.kernels.positivity import donor, limit, share
-from subslide.kernels.printed import braking, carried
+from subslide.kernels.positivity import limit, share
+from subslide.kernels.printed import braking
 from subslide.kernels.velocity import norm, velocity
 from subslide.kernels.waves import chosen_bounds, water_speeds
 
@@ -45,41 +45,41 @@ def fill_ghosts(c, walls):
 
 
 @inlined
-def cell_speeds(s, c, j, start, stop):
-    """Fill what a step derives from the state of the padded row j: sums, squares, wave speeds and the pace."""
+def cell_speeds(s, c, start, stop):
+    """Fill what a step derives from the state of a row: sums, squares, wave speeds and the pace."""
     first, count = part(start, stop)
     for k in range(count):
         i = k + first
-        h1 = c.h1[j, i]
-        h2 = c.h2[j, i]
-        c.eta[j, i] = h1 + h2
-        c.head2[j, i] = head(s.r, h1 + h2, h2)
-        c.square2[j, i] = c.u2[j, i] * c.u2[j, i] + c.v2[j, i] * c.v2[j, i]
-        slow_x, fast_x = chosen_bounds(s, h1, c.u1[j, i], h2, c.u2[j, i])
-        slow_y, fast_y = chosen_bounds(s, h1, c.v1[j, i], h2, c.v2[j, i])
-        c.slow_x[j, i] = slow_x
-        c.fast_x[j, i] = fast_x
-        c.slow_y[j, i] = slow_y
-        c.fast_y[j, i] = fast_y
-        c.pace[j, i] = max(fast_x, -slow_x) + max(fast_y, -slow_y)
+        h1 = c.h1[i]
+        h2 = c.h2[i]
+        c.eta[i] = h1 + h2
+        c.head2[i] = head(s.r, h1 + h2, h2)
+        c.square2[i] = c.u2[i] * c.u2[i] + c.v2[i] * c.v2[i]
+        slow_x, fast_x = chosen_bounds(s, h1, c.u1[i], h2, c.u2[i])
+        slow_y, fast_y = chosen_bounds(s, h1, c.v1[i], h2, c.v2[i])
+        c.slow_x[i] = slow_x
+        c.fast_x[i] = fast_x
+        c.slow_y[i] = slow_y
+        c.fast_y[i] = fast_y
+        c.pace[i] = max(fast_x, -slow_x) + max(fast_y, -slow_y)
 
 
 @inlined
-def water_cell_speeds(s, c, j, start, stop):
+def water_cell_speeds(s, c, start, stop):
     """Fill the same for cells without grains."""
     first, count = part(start, stop)
     for k in range(count):
         i = k + first
-        h1 = c.h1[j, i]
-        c.eta[j, i] = h1
-        c.head2[j, i] = s.r * h1
-        slow_x, fast_x = water_speeds(h1, c.u1[j, i])
-        slow_y, fast_y = water_speeds(h1, c.v1[j, i])
-        c.slow_x[j, i] = slow_x
-        c.fast_x[j, i] = fast_x
-        c.slow_y[j, i] = slow_y
-        c.fast_y[j, i] = fast_y
-        c.pace[j, i] = max(fast_x, -slow_x) + max(fast_y, -slow_y)
+        h1 = c.h1[i]
+        c.eta[i] = h1
+        c.head2[i] = s.r * h1
+        slow_x, fast_x = water_speeds(h1, c.u1[i])
+        slow_y, fast_y = water_speeds(h1, c.v1[i])
+        c.slow_x[i] = slow_x
+        c.fast_x[i] = fast_x
+        c.slow_y[i] = slow_y
+        c.fast_y[i] = fast_y
+        c.pace[i] = max(fast_x, -slow_x) + max(fast_y, -slow_y)
 
 
 @inlined
@@ -89,17 +89,15 @@ def central_jump(c, j, i, step_j, step_i):
 
 
 @inlined
-def fill_stuck(s, c, stuck, j, rows, shift, step, start, stop, dt):
-    """Fill row j of `stuck`, 1 for edges that friction holds, columns start..stop-1 of it.
+def fill_stuck(s, c, stuck, rows, shift, step, start, stop, dt):
+    """Fill a row of `stuck`, 1 for edges that friction holds, columns start..stop-1 of it.
 
-    Edge k lies between the cells k + shift of the padded row rows[0] and k + shift + step of row rows[1]; step is 1
-    for edges along x and 0 along y. The driving force is a vector: its part along the edge is the mean of the central
-    slopes in both cells. (With the normal part alone a cell on a slope across the grid could be too steep to stop, yet
-    pass nothing on.)
+    Edge k lies between the cell k + shift of the padded row rows[0] and the cell k + shift + step of row rows[1]; step
+    is 1 for edges along x and 0 along y. The driving force is a vector: its part along the edge is the mean of the
+    central slopes in both cells. (With the normal part alone a cell on a slope across the grid could be too steep to
+    stop, yet pass nothing on.)
     """
-    real = type(s.r)
-    static = (real(1) - s.r) * s.friction
-    quarter = real(0.25)
+    quarter = type(s.r)(0.25)
     p, n = rows
     across = 1 - step
     first, count = part(start, stop)
@@ -110,75 +108,8 @@ def fill_stuck(s, c, stuck, j, rows, shift, step, start, stop, dt):
         there = unsigned(i + step)
         normal = c.head2[n, there] - c.head2[p, here]
         along = quarter * (central_jump(c, p, i, step, across) + central_jump(c, n, i + step, step, across))
-        square = max(c.square2[p, here], c.square2[n, there])
-        held = holds(dt * static, s.dx * static, square, normal * normal + along * along)
-        stuck[j, unsigned(k)] = real(1) if held else real(0)
-
-
-@inlined
-def turned(side):
-    """Return a `Side` seen along y: its velocities change places."""
-    return Side(side.eta, side.h1, side.v1, side.u1, side.h2, side.v2, side.u2)
-
-
-@inlined
-def edges(s, f, j, slow, fast, rows, before, after, face_rows, shift, step, start, stop):
-    """Fill the fluxes through the edges of row j of `f`, columns start..stop-1 of it, which `fill_stuck` describes.
-
-    `slow`, `fast` bound the speeds in each cell; `before` and `after` (`Side`) hold the states at the edge's two
-    sides, in their rows face_rows.
-    """
-    zero = type(s.r)(0)
-    p, n = rows
-    b, a = face_rows
-    first, count = part(start, stop)
-    for m in range(count):
-        k = unsigned(m + first)
-        i = unsigned(m + first + shift)
-        o = unsigned(m + first + shift + step)
-        f1, m1, p1, f2, m2, p2 = edge_fluxes(
-            s,
-            f.stuck[j, k] != zero,
-            min(slow[p, i], slow[n, o]),
-            max(fast[p, i], fast[n, o]),
-            before.h1[b, i],
-            before.u1[b, i],
-            before.h2[b, i],
-            before.u2[b, i],
-            after.h1[a, o],
-            after.u1[a, o],
-            after.h2[a, o],
-            after.u2[a, o],
-            after.eta[a, o] - before.eta[b, i],
-        )
-        f.f1[j, k], f.m1[j, k], f.p1[j, k] = f1, m1, p1
-        f.f2[j, k], f.m2[j, k], f.p2[j, k] = f2, m2, p2
-        f.t1[j, k] = f1 * carried(s, f1, after.h1[a, o], before.v1[b, i], after.h1[a, o], after.v1[a, o])
-        f.t2[j, k] = f2 * carried(s, f2, before.h2[b, i], before.v2[b, i], after.h2[a, o], after.v2[a, o])
-
-
-@inlined
-def water_edges(s, f, j, slow, fast, rows, before, after, face_rows, shift, step, start, stop):
-    """Fill the water's fluxes through edges where no side has grains; see `edges`."""
-    p, n = rows
-    b, a = face_rows
-    first, count = part(start, stop)
-    for m in range(count):
-        k = unsigned(m + first)
-        i = unsigned(m + first + shift)
-        o = unsigned(m + first + shift + step)
-        f1, m1, p1 = water_edge_fluxes(
-            s,
-            min(slow[p, i], slow[n, o]),
-            max(fast[p, i], fast[n, o]),
-            before.h1[b, i],
-            before.u1[b, i],
-            after.h1[a, o],
-            after.u1[a, o],
-            after.eta[a, o] - before.eta[b, i],
-        )
-        f.f1[j, k], f.m1[j, k], f.p1[j, k] = f1, m1, p1
-        f.t1[j, k] = f1 * donor(f1, before.v1[b, i], after.v1[a, o])
+        push = normal * normal + along * along
+        stuck[unsigned(k)] = is_stuck(s, dt, c.square2[p, here], c.square2[n, there], push)
 
 
 @inlined
@@ -190,8 +121,8 @@ def outflow(fx, fy, j, k):
 
 
 @inlined
-def marks(s, c, fx, fy, mk, spans, j, dt):
-    """Fill `Marks` of row j (padded row j + 2); those of grains where there are any."""
+def fill_terms(s, c, fx, fy, terms, spans, j, dt):
+    """Fill `CellTerms` of row j, without ghosts; those of grains where there are any."""
     ratio = dt / s.dx
     p = j + GHOSTS
     start, stop = joint(spans, p, p, -GHOSTS, -GHOSTS, fy.f1.shape[1])
@@ -200,18 +131,19 @@ def marks(s, c, fx, fy, mk, spans, j, dt):
     for m in range(count):
         k = m + first
         i = k + GHOSTS
-        mk.keep1[p, i] = share(c.h1[p, i], ratio * outflow(fx.f1, fy.f1, j, k), s.dry_depth)
+        terms.keep1[p, i] = share(c.h1[p, i], ratio * outflow(fx.f1, fy.f1, j, k), s.dry_depth)
     first, count = part(low, high)
     for m in range(count):
         k = m + first
         i = k + GHOSTS
-        mk.keep2[p, i] = share(c.h2[p, i], ratio * outflow(fx.f2, fy.f2, j, k), s.dry_depth)
-        mk.held[p, i] = min(min(fx.stuck[j, k], fx.stuck[j, k + 1]), min(fy.stuck[j, k], fy.stuck[j + 1, k]))
+        terms.keep2[p, i] = share(c.h2[p, i], ratio * outflow(fx.f2, fy.f2, j, k), s.dry_depth)
+        along_x, along_y = min(fx.stuck[j, k], fx.stuck[j, k + 1]), min(fy.stuck[j, k], fy.stuck[j + 1, k])
+        terms.held[p, i] = min(along_x, along_y)
 
 
 @inlined
 def advance_layer(ratio, h, u, v, x, y, keep, inner_x, inner_y, j, k):
-    """Return a layer's depth and momenta in cell (j, k) after a step, from its fluxes x and y: (f, m, t, p) each."""
+    """Return a layer's depth and momenta in cell (j, k) after a step (Eq. 6), from its fluxes x and y: (f, m, t, p)."""
     half = type(ratio)(0.5)
     fx, mx, tx, px = x
     fy, my, ty, py = y
@@ -231,9 +163,9 @@ def advance_layer(ratio, h, u, v, x, y, keep, inner_x, inner_y, j, k):
 
 
 @inlined
-def update(s, c, fx, fy, mk, spans, j, dt):
-    """Advance row j (padded row j + 2) by dt: fluxes, pressure, then Coulomb friction."""
-    reach = dt * (type(s.r)(1) - s.r) * s.friction
+def update(s, c, fx, fy, terms, spans, j, dt):
+    """Advance row j, without ghosts, by dt: fluxes, pressure, then Coulomb friction."""
+    reach = dt * (type(s.r)(1) - s.r) * s.m
     ratio = dt / s.dx
     p = j + GHOSTS
     start, stop = joint(spans, p, p, -GHOSTS, -GHOSTS, fy.f1.shape[1])
@@ -243,7 +175,9 @@ def update(s, c, fx, fy, mk, spans, j, dt):
     for m in range(count):
         k = m + first
         i = k + GHOSTS
-        h, qx, qy = advance_layer(ratio, c.h1, c.u1, c.v1, x, y, mk.keep1, mk.inner_p1x, mk.inner_p1y, j, k)
+        h, qx, qy = advance_layer(
+            ratio, c.h1, c.u1, c.v1, x, y, terms.keep1, terms.inner_p1x, terms.inner_p1y, j, k
+        )
         c.h1[p, i] = h
         c.u1[p, i] = velocity(qx, h, s.dry_depth)
         c.v1[p, i] = velocity(qy, h, s.dry_depth)
@@ -252,17 +186,19 @@ def update(s, c, fx, fy, mk, spans, j, dt):
     for m in range(count):
         k = m + first
         i = k + GHOSTS
-        h, qx, qy = advance_layer(ratio, c.h2, c.u2, c.v2, x, y, mk.keep2, mk.inner_p2x, mk.inner_p2y, j, k)
+        h, qx, qy = advance_layer(
+            ratio, c.h2, c.u2, c.v2, x, y, terms.keep2, terms.inner_p2x, terms.inner_p2y, j, k
+        )
         u = velocity(qx, h, s.dry_depth)
         v = velocity(qy, h, s.dry_depth)
-        factor = braking(s, reach, norm(u, v), mk.held[p, i])
+        factor = braking(s, reach, norm(u, v), terms.held[p, i])
         c.h2[p, i] = h
         c.u2[p, i] = factor * u
         c.v2[p, i] = factor * v
     if is_general(s) and s.law != COULOMB:
         for i in range(low + GHOSTS, high + GHOSTS):
-            factor = further(s, dt, c.h2[p, i], norm(c.u2[p, i], c.v2[p, i]))
+            factor = remaining(s, dt, c.h2[p, i], norm(c.u2[p, i], c.v2[p, i]))
             c.u2[p, i] *= factor
             c.v2[p, i] *= factor
-    if is_general(s) and s.treatment == FRICTION:
+    if is_general(s) and s.treatment == RUB:
         rub(s, c.h1[p], c.u1[p], c.v1[p], c.h2[p], c.u2[p], c.v2[p])

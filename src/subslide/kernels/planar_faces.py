@@ -27,16 +27,17 @@ def put(low, high, b, u, i, state, slopes):
 
 
 @inlined
-def faces(s, c, mk, j, left, right, lower, upper, b, u, start, stop, dt):
+def faces(s, c, terms, j, sides, b, u, start, stop, dt):
     """Second order: the states at the four faces of the padded row j, half a step on, and the inner pressure products.
 
-    They go to row b of `left`, `right`, `lower` and row u of `upper`. Grains that friction can stop are not
-    accelerated in the half step; moving ones feel no friction in it (more accurate on coarse grids, measured).
+    They go to row b of `left`, `right`, `lower` and row u of `upper`, the four `sides`. Grains that friction can stop
+    are not accelerated in the half step; moving ones feel no friction in it (more accurate on coarse grids, measured).
     """
+    left, right, lower, upper = sides
     real = type(s.r)
     zero = real(0)
     ratio = real(0.5) * dt / s.dx
-    static = (real(1) - s.r) * s.friction
+    static = (real(1) - s.r) * s.m
     reach = dt * static
     first, count = part(start, stop)
     for k in range(count):
@@ -87,7 +88,7 @@ def faces(s, c, mk, j, left, right, lower, upper, b, u, start, stop, dt):
         middle = Side(m_eta, m_h1, m_u1, m_v1, m_h2, m_u2, m_v2)
         put(left, right, b, b, i, middle, Side(xe, x1, x.u1, x.v1, x2, x.u2, x.v2))
         put(lower, upper, b, u, i, middle, Side(ye, y1, y.u1, y.v1, y2, y.u2, y.v2))
-        mk.inner_p1x[j, i] = m_h1 * xe
-        mk.inner_p2x[j, i] = m_h2 * (s.r * x1 + x2)
-        mk.inner_p1y[j, i] = m_h1 * ye
-        mk.inner_p2y[j, i] = m_h2 * (s.r * y1 + y2)
+        terms.inner_p1x[j, i] = m_h1 * xe
+        terms.inner_p2x[j, i] = m_h2 * (s.r * x1 + x2)
+        terms.inner_p1y[j, i] = m_h1 * ye
+        terms.inner_p2y[j, i] = m_h2 * (s.r * y1 + y2)

@@ -5,9 +5,10 @@ from subslide.kernels.friction.coulomb import coulomb
 from subslide.kernels.jit import inlined
 from subslide.kernels.positivity import donor
 from subslide.kernels.velocity import velocity
+from subslide.keys.names import AS_PRINTED, flags
 
-AS_PRINTED = {"none": 0, "friction": 1, "upwinding": 2}
-NONE, FRICTION, UPWINDING = AS_PRINTED.values()
+FLAGS = flags(AS_PRINTED)
+STEP, UPWINDING = FLAGS["friction"], FLAGS["upwinding"]
 
 
 @inlined
@@ -18,7 +19,7 @@ def braking(s, reach, speed, held):
     m/s2, `printed_bound` being that number over sqrt(g H2) in m/s. Slow grains are turned round, and never rest.
     """
     real = type(speed)
-    if is_general(s) and s.as_printed == FRICTION:
+    if is_general(s) and s.as_printed == STEP:
         factor = real(1) - reach / (speed if speed > real(0) else real(1))
         return factor if abs(speed - reach) <= s.printed_bound and speed > real(0) else real(0)
     return coulomb(reach, speed, held)

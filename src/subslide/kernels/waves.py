@@ -5,15 +5,30 @@ Variables are scaled (g = 1), so the squared speed of a layer alone is its depth
 """
 
 import math
+from typing import NamedTuple
 
 from subslide.kernels.arrays import is_general
 from subslide.kernels.jit import inlined
+from subslide.keys.names import SPEEDS, flags
 
-SPEEDS = {"exact": 0, "approximate": 1}
-EXACT, APPROXIMATE = SPEEDS.values()
+APPROXIMATE = flags(SPEEDS)["approximate"]
 
 NEWTON_STEPS = 3
 """Held by tests/numerics/test_waves.py against numpy's eigenvalues."""
+
+
+class Waves(NamedTuple):
+    """Wave speeds of an edge, as Riemann solvers see them."""
+
+    s_l: float  # slowest and fastest, no less and no more than the bounds of the cells
+    s_int: float  # Eq. (11)
+    s_r: float
+    slow: float  # outer pair of A_ij
+    fast: float
+    centre: float  # its inner pair is centre -+ sqrt(half_width_squared), complex where that is negative
+    half_width_squared: float
+    slowest: float  # bounds of the speeds in both cells
+    fastest: float
 
 
 @inlined
@@ -180,3 +195,24 @@ def chosen_speeds(s, h1, u1, h2, u2):
             fast = newton(fast, u1, h1, u2, h2, k)
     centre, half_width_squared = inner_speeds(h1, u1, h2, u2, s.r, slow, fast)
     return slow, fast, centre, half_width_squared
+
+
+@inlined
+def intermediate_speed(s_l, s_r, centre, half_width_squared):
+    """Return S_int of Eq. (11): the largest inner speed, on the side of the larger outer speed (Eq. 12).
+
+    A complex pair counts with its real part.
+    """
+    real = type(s_l)
+    size = abs(centre) + math.sqrt(max(half_width_squared, real(0)))
+    return math.copysign(size, s_r if abs(s_r) > abs(s_l) else s_l)
+
+
+@inlined
+def edge_waves(s, a, slowest, fastest):
+    """Return the `Waves` of an edge with the Roe matrix `a`, given bounds of the speeds in its cells."""
+    slow, fast, centre, half_width_squared = chosen_speeds(s, a.h1, a.u1, a.h2, a.u2)
+    s_l = min(slow, slowest)
+    s_r = max(fast, fastest)
+    s_int = intermediate_speed(s_l, s_r, centre, half_width_squared)
+    return Waves(s_l, s_int, s_r, slow, fast, centre, half_width_squared, slowest, fastest)

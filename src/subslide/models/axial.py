@@ -3,82 +3,96 @@
 import numpy as np
 
 from subslide.kernels.advance_axial import advance_axial
-from subslide.kernels.arrays import GHOSTS, Cells, Fluxes, Marks, Side, allocate
+from subslide.kernels.arrays import GHOSTS, Cells, CellTerms, Fluxes, Mesh, Side, Watch, allocate
 from subslide.models.limits import LOST_GRAINS, first_sheared, first_suspect
 
 
 class Axial:
     """A state on n cells and the time loop that moves it.
 
-    scene: `kernels.arrays.Scene` in the working precision. state: (h1, u1, h2, u2), each (n), scaled. radial: whether
-    cells are rings about the axis. walls: what the (left, right) end is, see `kernels.boundary`. level: the
-    undisturbed surface. watched: cells from the axis within which the surface is watched.
+    Parameters
+    ----------
+    name : str
+        The model's name.
+    settings : kernels.arrays.Settings
+        Scaled numbers in the working precision.
+    state : tuple
+        (h1, u1, h2, u2), each (n), scaled.
+    grid : models.grid.Grid
+        A radius, whose cells are rings about the axis, or a line.
+    walls : tuple of int
+        What the (left, right) end is, see `kernels.boundary`.
+    level : float
+        The undisturbed surface, scaled.
+    watched : int
+        Cells from the axis within which the surface is watched.
     """
 
     copies = 1
 
-    def __init__(self, name, scene, state, grid, *, radial, walls, level, watched):
-        real = type(scene.r)
+    def __init__(self, name, settings, state, grid, *, walls, level, watched):
+        real = type(settings.r)
+        radial = grid.geometry == "radius"
         n = len(grid.centres)
         padded = n + 2 * GHOSTS
         self.name = name
-        self.scene = scene
+        self.settings = settings
         self.level = real(level)
         self.x = grid.centres
         self.half_width = grid.edges[-1]
         self.dimensions = 2 if radial else 1
         self.cells = allocate(Cells, (padded,), real)
-        for field, values in zip(("h1", "u1", "h2", "u2"), state, strict=True):
-            getattr(self.cells, field)[GHOSTS:-GHOSTS] = values
-        own = Side(*(getattr(self.cells, field) for field in Side._fields))
+        for variable, values in zip(("h1", "u1", "h2", "u2"), state, strict=True):
+            getattr(self.cells, variable)[GHOSTS:-GHOSTS] = values
+        in_cells = Side(*(getattr(self.cells, variable) for variable in Side._fields))
         self.left, self.right = (
-            (own, own) if scene.order == 1 else (allocate(Side, (padded,), real) for _ in range(2))
+            (in_cells, in_cells)
+            if settings.order == 1
+            else (allocate(Side, (padded,), real) for _ in range(2))
         )
         self.fluxes = allocate(Fluxes, (n + 1,), real)
-        self.marks = allocate(Marks, (padded,), real)
-        self.marks.keep1[:] = self.marks.keep2[:] = 1
-        dx = grid.dx
-        r = self.x if radial else np.ones(n)
-        self.area = (grid.edges if radial else np.ones(n + 1)).astype(real)
-        self.inverse_volume = (1 / (r * dx)).astype(real)
-        self.weight = np.zeros(padded, real)
-        self.weight[GHOSTS:-GHOSTS] = r * dx * (2 * np.pi if radial else 1)
-        self.total = np.concatenate([[0.0], np.cumsum(self.weight, dtype=np.float64)])
-        self.source = np.zeros(padded, real)
-        if radial:
-            self.source[GHOSTS:-GHOSTS] = -0.5 / self.x
-            self.source[GHOSTS - 1] = -self.source[GHOSTS]  # mirrored, so that nothing passes a wall
-            self.source[-GHOSTS] = -self.source[-GHOSTS - 1] if walls[1] else -0.5 / (self.x[-1] + dx)
+        self.terms = allocate(CellTerms, (padded,), real)
+        self.terms.keep1[:] = self.terms.keep2[:] = 1
+        self.mesh = mesh_of(grid, radial, walls[1], real)
         self.walls = (int(walls[0]), int(walls[1]))
-        beside = int(np.searchsorted(self.x, 0.0))
-        beyond = int(np.searchsorted(self.x, 1.0))
-        near = np.flatnonzero(np.abs(self.x) < watched * dx)
-        margin = 64.0 * float(np.finfo(real).eps)
-        columns = np.array([beside, beyond, near[0], near[-1] + 1]) + GHOSTS
-        least = (1 - LOST_GRAINS) * float(np.sum(self.weight * self.cells.h2, dtype=np.float64))
-        still = state[0][-1], state[2][-1]
-        self.probe = (self.level, least, *(int(column) for column in columns), margin, *still)
+        self.watch = self._watch(grid.dx, watched, state[0][-1], state[2][-1])
 
-    def advance(self, thresholds, clock, samples, counters):
+    def _watch(self, dx, watched, still1, still2):
+        """Return the `Watch` of the loop; still water is the state of the last cell at the start."""
+        near = np.flatnonzero(np.abs(self.x) < watched * dx)
+        columns = (near[0], near[-1] + 1, np.searchsorted(self.x, 0.0), np.searchsorted(self.x, 1.0))
+        start, stop, beside, beyond = (int(column) + GHOSTS for column in columns)
+        grains = float(np.sum(self.mesh.weight * self.cells.h2, dtype=np.float64))
+        return Watch(
+            level=self.level,
+            least_grains=(1 - LOST_GRAINS) * grains,
+            margin=64.0 * float(np.finfo(self.level.dtype).eps),
+            still1=still1,
+            still2=still2,
+            start=start,
+            stop=stop,
+            bottom=0,
+            top=0,
+            beside=beside,
+            beyond=beyond,
+            below_axis=0,
+            above_axis=0,
+        )
+
+    def advance(self, thresholds, track):
         """Run the time loop; see `advance_axial`."""
         advance_axial(
-            self.scene,
+            self.settings,
             self.cells,
             self.left,
             self.right,
             self.fluxes,
-            self.marks,
-            self.area,
-            self.inverse_volume,
-            self.weight,
-            self.total,
-            self.source,
+            self.terms,
+            self.mesh,
             self.walls,
-            self.probe,
+            self.watch,
             thresholds,
-            clock,
-            samples,
-            counters,
+            track,
         )
 
     def profile(self):
@@ -96,4 +110,25 @@ class Axial:
 
     def sheared(self):
         """Return where wave speeds are first complex, and the state there; '' if nowhere."""
-        return first_sheared(self.cells, ("h1", "u1", "h2", "u2"), self.scene)
+        return first_sheared(self.cells, ("h1", "u1", "h2", "u2"), self.settings)
+
+
+def mesh_of(grid, radial, right_wall, real):
+    """Return the `Mesh` of a line or a radius in the working precision `real`."""
+    n, dx, x = len(grid.centres), grid.dx, grid.centres
+    padded = n + 2 * GHOSTS
+    r = x if radial else np.ones(n)
+    weight = np.zeros(padded, real)
+    weight[GHOSTS:-GHOSTS] = r * dx * (2 * np.pi if radial else 1)
+    source = np.zeros(padded, real)
+    if radial:
+        source[GHOSTS:-GHOSTS] = -0.5 / x
+        source[GHOSTS - 1] = -source[GHOSTS]  # mirrored, so that nothing passes a wall
+        source[-GHOSTS] = -source[-GHOSTS - 1] if right_wall else -0.5 / (x[-1] + dx)
+    return Mesh(
+        area=(grid.edges if radial else np.ones(n + 1)).astype(real),
+        inverse_volume=(1 / (r * dx)).astype(real),
+        source=source,
+        weight=weight,
+        total=np.concatenate([[0.0], np.cumsum(weight, dtype=np.float64)]),
+    )

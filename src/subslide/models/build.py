@@ -5,59 +5,74 @@ import math
 import numpy as np
 
 from subslide import scenes
-from subslide.kernels.arrays import GeneralScene, Scene
-from subslide.kernels.boundary import BOUNDARIES, WALL
-from subslide.kernels.friction import LAWS
-from subslide.kernels.hyperbolicity import TREATMENTS
-from subslide.kernels.printed import AS_PRINTED
-from subslide.kernels.viscosity import SCHEMES
-from subslide.kernels.waves import SPEEDS
+from subslide.kernels import boundary, friction, hyperbolicity, printed, viscosity
+from subslide.kernels.arrays import GeneralSettings, Settings
+from subslide.keys import names
 from subslide.models.axial import Axial
 from subslide.models.grid import make_grid
 from subslide.models.plane import Plane
-from subslide.study.choice import geometry, needs_general
+from subslide.points import Point
+from subslide.study import choice
 
 
-def scaled(point, layers, dx, dry_depth):
-    """Return the scaled numbers of a point (`kernels.arrays.Scene`) in its working precision."""
+def settings_of(point: Point, layers: int, dx: float, dry_depth: float) -> Settings | GeneralSettings:
+    """Return the scaled numbers and choices of a point in its working precision.
+
+    Parameters
+    ----------
+    point
+        The run.
+    layers
+        1 for grains alone.
+    dx, dry_depth
+        Cell size over R; depth over H2 below which a layer counts as dry.
+    """
     real = np.dtype(point.dtype).type
     mu = math.tan(math.radians(point.delta))
-    scene = Scene(
+    law = (real(number) for number in friction.numbers(point))
+    exact = point.front_flux == "exact" and viscosity.takes_exact_front(point.scheme)
+    settings = Settings(
         layers=layers,
-        scheme=SCHEMES[point.scheme],
+        scheme=viscosity.FLAGS[point.scheme],
         order=point.order,
         r=real(point.r),
-        friction=real(mu / point.a_2),
+        m=real(point.friction_number),
         dx=real(dx),
         cfl=real(point.cfl),
         dry_depth=real(dry_depth),
-        exact_front=int(point.front_flux == "exact" and point.scheme in ("ifcph", "roe")),
+        exact_front=int(exact),
         lanes=64 // real().itemsize,
-        speeds=SPEEDS[point.wave_speeds],
-        law=LAWS[point.friction],
-        turbulence=real(point.g / (point.xi * point.a_2)),
-        friction_rise=real((math.tan(math.radians(point.delta_2)) - mu) / point.a_2),
-        depths=real(point.a_2 * point.radius / point.pouliquen_length),
-        treatment=TREATMENTS[point.treatment],
-        as_printed=AS_PRINTED[point.as_printed],
-        printed_bound=real((1 - point.r) * mu * math.sqrt(point.g / (point.a_2 * point.radius))),
+        speeds=names.flags(names.SPEEDS)[point.wave_speeds],
+        law=friction.FLAGS[point.friction],
+        **dict(zip(("law_1", "law_2", "law_3"), law, strict=True)),
+        treatment=hyperbolicity.FLAGS[point.treatment],
+        as_printed=printed.FLAGS[point.as_printed],
+        printed_bound=real((1 - point.r) * mu * math.sqrt(point.g / point.column_height)),
         viscous_friction=int(point.friction_in_viscosity),
     )
-    return GeneralScene(*scene, general=1) if needs_general(point) else scene
+    return GeneralSettings(*settings, general=1) if choice.of(point).general else settings
 
 
-def build(point, model, box, watched, dry_depth):
-    """Return the model in its initial state.
+def build(point: Point, box: int, watched: int, dry_depth: float) -> Axial | Plane:
+    """Return the model of a point in its initial state.
 
-    box, watched: cells from the axis to the end of the box and of the region where the surface is watched.
+    Parameters
+    ----------
+    point
+        The run; how it is solved follows from it (`study.choice`).
+    box, watched
+        Cells from the axis to the end of the box, and of the region where the surface is watched.
+    dry_depth
+        Depth over H2 below which a layer counts as dry.
     """
     real = np.dtype(point.dtype).type
-    dx = 0.6 / point.cells / 0.0705
-    grid = make_grid(geometry(model, point), dx, box)
+    model, geometry, *_ = choice.of(point)
+    dx = point.scaled_dx
+    grid = make_grid(geometry, dx, box)
     state = scenes.load(point.scene).initial(grid, point)
     alone = model == "one-layer"
-    scene = scaled(point, 1 if alone else 2, dx, dry_depth)
-    level = real(1.0 + point.a_H)
+    settings = settings_of(point, 1 if alone else 2, dx, dry_depth)
+    level = real(point.scaled_level)
     axial = grid.geometry in ("radius", "line")
     shape = (len(grid.centres),) * (1 if axial else 2)
     flat = np.ptp(state.h1 + state.h2) == 0
@@ -65,26 +80,12 @@ def build(point, model, box, watched, dry_depth):
     if flat:  # flat to the bit in the working precision too
         h1, h2 = scenes.level_off(state.h2, level)
         state = state._replace(h1=h1, h2=h2)
-    end = BOUNDARIES[point.boundary]
+    end = boundary.FLAGS[point.boundary]
+    watch = {"level": real(1) if alone else level, "watched": watched}
     if axial:
-        round_scene = grid.geometry == "radius"
-        return Axial(
-            model,
-            scene,
-            (0 * state.h1 if alone else state.h1, state.u1, state.h2, state.u2),
-            grid,
-            radial=round_scene,
-            walls=(WALL if round_scene else end, end),
-            level=real(1) if alone else level,
-            watched=watched,
-        )
-    first = WALL if grid.geometry == "quarter" else end
-    return Plane(
-        model,
-        scene,
-        (state.h1, state.u1, state.v1, state.h2, state.u2, state.v2),
-        grid,
-        walls=(first, end, first, end),
-        level=level,
-        watched=watched,
-    )
+        walls = (boundary.WALL if grid.geometry == "radius" else end, end)
+        layers = (0 * state.h1 if alone else state.h1, state.u1, state.h2, state.u2)
+        return Axial(model, settings, layers, grid, walls=walls, **watch)
+    first = boundary.WALL if grid.geometry == "quarter" else end
+    layers = (state.h1, state.u1, state.v1, state.h2, state.u2, state.v2)
+    return Plane(model, settings, layers, grid, walls=(first, end, first, end), **watch)

@@ -21,16 +21,16 @@ def first_suspect(cells, names):
     return described(bad, values)
 
 
-def first_sheared(cells, names, scene):
+def first_sheared(cells, names, settings):
     """Return the first cell whose wave speeds are complex along its shear, likewise."""
     values = inner(cells, names)
-    real = type(scene.r)
+    real = type(settings.r)
     square = sum((values[a] - values[b]) ** 2 for a, b in (("u1", "u2"), ("v1", "v2")) if a in values)
     h1, h2 = values["h1"], values["h2"]
-    lost = np.minimum(h1, h2) > scene.dry_depth
+    lost = np.minimum(h1, h2) > settings.dry_depth
     for where in np.argwhere(lost):
         place = tuple(where)
-        lost[place] = is_complex(real(h1[place]), real(h2[place]), real(square[place]), scene.r)
+        lost[place] = is_complex(real(h1[place]), real(h2[place]), real(square[place]), settings.r)
         if lost[place]:
             break
     return described(lost, values)

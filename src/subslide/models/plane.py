@@ -4,26 +4,39 @@ import numpy as np
 
 from subslide.kernels.active import SPANS
 from subslide.kernels.advance_planar import BLOCK, ROW_COLUMNS, advance_planar
-from subslide.kernels.arrays import GHOSTS, Cells, Fluxes, Marks, Side, allocate
+from subslide.kernels.arrays import GHOSTS, Cells, CellTerms, Fluxes, Mesh, Side, Watch, allocate
 from subslide.models.limits import LOST_GRAINS, first_sheared, first_suspect
 
 
 class Plane:
     """A state on ny x nx square cells and the time loop that moves it.
 
-    scene: `kernels.arrays.Scene` in the working precision. state: (h1, u1, v1, h2, u2, v2), each (ny, nx), scaled.
-    walls: what (left, right, bottom, top) are, see `kernels.boundary`. level: the undisturbed surface. watched:
-    half-width in cells of the region where the surface is watched.
+    Parameters
+    ----------
+    name : str
+        The model's name.
+    settings : kernels.arrays.Settings
+        Scaled numbers in the working precision.
+    state : tuple
+        (h1, u1, v1, h2, u2, v2), each (ny, nx), scaled.
+    grid : models.grid.Grid
+        The plane or its quarter.
+    walls : tuple of int
+        What (left, right, bottom, top) are, see `kernels.boundary`.
+    level : float
+        The undisturbed surface, scaled.
+    watched : int
+        Half-width in cells of the region where the surface is watched.
     """
 
     dimensions = 2
 
-    def __init__(self, name, scene, state, grid, *, walls, level, watched):
-        real = type(scene.r)
+    def __init__(self, name, settings, state, grid, *, walls, level, watched):
+        real = type(settings.r)
         ny, nx = state[0].shape
         padded = (ny + 2 * GHOSTS, nx + 2 * GHOSTS)
         self.name = name
-        self.scene = scene
+        self.settings = settings
         self.level = real(level)
         self.x = grid.centres
         self.half_width = grid.edges[-1]
@@ -32,55 +45,60 @@ class Plane:
         self.centre = (first, first)
         self.cells = allocate(Cells, padded, real)
         inner = (slice(GHOSTS, -GHOSTS),) * 2
-        for field, values in zip(("h1", "u1", "v1", "h2", "u2", "v2"), state, strict=True):
-            getattr(self.cells, field)[inner] = values
+        for variable, values in zip(("h1", "u1", "v1", "h2", "u2", "v2"), state, strict=True):
+            getattr(self.cells, variable)[inner] = values
         blocks = -(-ny // BLOCK)
-        if scene.order == 1:
-            own = Side(*(getattr(self.cells, field) for field in Side._fields))
-            self.faces = (own,) * 4
+        if settings.order == 1:
+            self.faces = (Side(*(getattr(self.cells, variable) for variable in Side._fields)),) * 4
         else:
-            self.faces = tuple(
-                allocate(Side, (rows, padded[1]), real) for rows in (blocks, blocks, blocks, 2 * blocks)
-            )
+            rows = (blocks, blocks, blocks, 2 * blocks)
+            self.faces = tuple(allocate(Side, (count, padded[1]), real) for count in rows)
         self.fluxes = allocate(Fluxes, (ny, nx + 1), real), allocate(Fluxes, (ny + 1, nx), real)
-        self.marks = allocate(Marks, padded, real)
-        self.marks.keep1[:] = self.marks.keep2[:] = 1
-        dx = grid.dx
-        self.weight = np.zeros(padded[1], real)
-        self.weight[inner[1]] = dx * dx
-        self.total = np.concatenate([[0.0], np.cumsum(self.weight, dtype=np.float64)])
+        self.terms = allocate(CellTerms, padded, real)
+        self.terms.keep1[:] = self.terms.keep2[:] = 1
+        self.mesh = mesh_of(padded[1], grid.dx, real)
         self.walls = tuple(int(wall) for wall in walls)
-        column = row = first + GHOSTS
-        margin = 64.0 * float(np.finfo(real).eps)
-        box = max(GHOSTS, column - watched), min(padded[1] - GHOSTS, column + watched)
-        box += max(GHOSTS, row - watched), min(padded[0] - GHOSTS, row + watched)
-        least = (1 - LOST_GRAINS) * float(np.sum(self.weight * self.cells.h2, dtype=np.float64))
-        self.probe = (self.level, least, *box, margin, state[0][-1, -1], state[3][-1, -1])
-        self.inside = columns_within_radius(padded[0], row, column, dx, box[:2])
-        self.axis = (row if name == "quarter" else row - 1, row, column)
+        self.watch = self._watch(padded, first + GHOSTS, watched, state[0][-1, -1], state[3][-1, -1])
+        box = (self.watch.start, self.watch.stop)
+        self.inside = columns_within_radius(padded[0], first + GHOSTS, first + GHOSTS, grid.dx, box)
         self.spans = np.zeros((padded[0], SPANS), np.int64)
         self.rows = np.zeros((padded[0], ROW_COLUMNS))
 
-    def advance(self, thresholds, clock, samples, counters):
+    def _watch(self, padded, axis, watched, still1, still2):
+        """Return the `Watch` of the loop. axis: first padded column, and row, beyond the axis."""
+        grains = float(np.sum(self.mesh.weight * self.cells.h2, dtype=np.float64))
+        return Watch(
+            level=self.level,
+            least_grains=(1 - LOST_GRAINS) * grains,
+            margin=64.0 * float(np.finfo(self.level.dtype).eps),
+            still1=still1,
+            still2=still2,
+            start=max(GHOSTS, axis - watched),
+            stop=min(padded[1] - GHOSTS, axis + watched),
+            bottom=max(GHOSTS, axis - watched),
+            top=min(padded[0] - GHOSTS, axis + watched),
+            beside=axis,
+            beyond=0,
+            below_axis=axis if self.copies == 4 else axis - 1,
+            above_axis=axis,
+        )
+
+    def advance(self, thresholds, track):
         """Run the time loop; see `advance_planar`."""
         advance_planar(
-            self.scene,
+            self.settings,
             self.cells,
             *self.faces,
             *self.fluxes,
-            self.marks,
-            self.weight,
-            self.total,
+            self.terms,
+            self.mesh,
             self.walls,
-            self.probe,
+            self.watch,
             self.inside,
-            self.axis,
             self.spans,
             self.rows,
             thresholds,
-            clock,
-            samples,
-            counters,
+            track,
         )
 
     def fields(self):
@@ -92,7 +110,7 @@ class Plane:
     def profile(self):
         """Return h2 and eta along the x axis (mean of the rows beside it) and h2 along the diagonal, each (nx)."""
         whole = self.fields()
-        rows = [row - GHOSTS for row in self.axis[:2]]
+        rows = [row - GHOSTS for row in (self.watch.below_axis, self.watch.above_axis)]
         out = {name: 0.5 * (values[rows[0]] + values[rows[1]]) for name, values in whole.items()}
         out["h2_diagonal"] = diagonal(whole["h2"], self.centre)
         return out
@@ -103,7 +121,16 @@ class Plane:
 
     def sheared(self):
         """Return where wave speeds are first complex, and the state there; '' if nowhere."""
-        return first_sheared(self.cells, ("h1", "u1", "v1", "h2", "u2", "v2"), self.scene)
+        return first_sheared(self.cells, ("h1", "u1", "v1", "h2", "u2", "v2"), self.settings)
+
+
+def mesh_of(columns, dx, real):
+    """Return the `Mesh` of a row of padded columns in the plane, in the working precision `real`."""
+    weight = np.zeros(columns, real)
+    weight[GHOSTS:-GHOSTS] = dx * dx
+    total = np.concatenate([[0.0], np.cumsum(weight, dtype=np.float64)])
+    nothing = np.zeros(0, real)
+    return Mesh(area=nothing, inverse_volume=nothing, source=nothing, weight=weight, total=total)
 
 
 def columns_within_radius(padded_rows, row, column, dx, box):

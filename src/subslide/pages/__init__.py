@@ -6,7 +6,7 @@ second has `page(text, results)`, which returns a page with the tables of a stud
 
 import importlib
 
-GENERATED = ("keys", "tables", "records")
+GENERATED = ("keys", "schema", "tables", "records")
 """Modules of pages that follow from the code."""
 
 

@@ -1,12 +1,12 @@
 """The page on studies, config/README.md: every key, named numerics, and every scene with its options."""
 
 from subslide import catalogue, scenes
-from subslide.keys import schema
+from subslide.keys import schema, words
 
 PATH = "config/README.md"
 INTRODUCTION = """# Studies
 
-<!-- written by `make docs` from src/subslide/keys/config.schema.json and src/subslide/scenes -->
+<!-- written by `make docs` from src/subslide/keys/entries.py and src/subslide/scenes -->
 
 One YAML file is one study. Run it with
 
@@ -14,6 +14,14 @@ One YAML file is one study. Run it with
 
 or, in the virtual environment that `make setup` makes, `snakemake --configfile config/mine.yaml --cores 2`.
 Results go to `results/<study>/`. Without a file Snakemake runs `config/paper.yaml`; files are never merged.
+
+An editor that knows YAML completes and checks a file that begins with
+
+```yaml
+# yaml-language-server: $schema=study.schema.json
+```
+
+and lies beside config/study.schema.json, a JSON Schema of all that follows.
 
 Keys are flat. A key that is marked as an axis takes one value or a list; the runs are the product of all lists, and a
 point that comes up twice runs once. `subslide check config/mine.yaml` tells what a file holds, or what is wrong.
@@ -78,9 +86,9 @@ def keys() -> str:
     """Return the table (Markdown) of all keys of a study."""
     rows = ["| key | meaning | unit | default | allowed | axis |", "|---|---|---|---|---|---|"]
     for key, about in schema.properties().items():
-        default = schema.show(about["default"]) if "default" in about else "needed"
+        default = words.show(about["default"]) if "default" in about else "needed"
         axis = "yes" if schema.is_axis(key) else ""
-        entries = (f"`{key}`", about["description"], schema.unit(key), default, schema.allowed(key), axis)
+        entries = (f"`{key}`", about["description"], words.unit(key), default, words.allowed(key), axis)
         rows.append("| " + " | ".join(entries) + " |")
     return "\n".join(rows) + "\n"
 
@@ -103,13 +111,13 @@ def scene(name: str) -> str:
     if module.OPTIONS:
         lines += ["| option | meaning | unit | default | allowed |", "|---|---|---|---|---|"]
     for option, about in module.OPTIONS.items():
-        default = schema.show(about["default"]) if "default" in about else "needed"
+        default = words.show(about["default"]) if "default" in about else "needed"
         entries = (
             f"`{option}`",
             about["description"],
-            schema.unit_of(about),
+            words.unit_of(about),
             default,
-            schema.range_of(about),
+            words.range_of(about),
         )
         lines.append("| " + " | ".join(entries) + " |")
     return "\n".join(lines) + ("\n" if module.OPTIONS else "")

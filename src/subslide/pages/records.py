@@ -1,11 +1,11 @@
 """The page on records, docs/records.md: statuses, and every variable with its dimensions and unit."""
 
-from subslide import fields
+from subslide import naming
 
 PATH = "docs/records.md"
 INTRODUCTION = """# Records
 
-<!-- written by `make docs` from src/subslide/fields.py -->
+<!-- written by `make docs` from src/subslide/naming.py -->
 
 `subslide run` writes one run, a study one file for each batch of runs, in one layout (NetCDF-4, CF-1.11): every
 variable of a run has the dimension `run`, of length 1 for a single run. Runs that are shorter, or lie in a smaller box,
@@ -32,13 +32,13 @@ def text() -> str:
 
 def variables() -> str:
     """Return tables (Markdown) of the statuses and the variables of a record."""
-    lines = [f"- `{name}`: {text}" for name, text in fields.STATUSES.items()]
+    lines = [f"- `{name}`: {text}" for name, text in naming.STATUSES.items()]
     parts = {
-        "Series, a sample each time step": fields.SERIES,
-        "Profiles along the x axis, at each snapshot": fields.PROFILES,
-        "Fields, at each snapshot (`fields: true`, in the plane)": fields.FIELDS_2D,
-        "A value a run": {**fields.PARAMETERS, **fields.SCALARS},
-        "Coordinates": fields.COORDINATES,
+        "Series, a sample each time step": naming.SERIES,
+        "Profiles along the x axis, at each snapshot": naming.PROFILES,
+        "Fields, at each snapshot (`fields: true`, in the plane)": naming.FIELDS_2D,
+        "A value a run": naming.SCALARS,
+        "Coordinates": naming.COORDINATES,
     }
     for title, table in parts.items():
         lines += ["", f"## {title}", "", "| name | dimensions | unit | meaning |", "|---|---|---|---|"]

@@ -4,33 +4,56 @@ import hashlib
 import json
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import netCDF4
 import numpy as np
 
 from subslide.files import RecordError, replacing
+from subslide.records import provenance
 from subslide.records import variables as layout
 from subslide.records.variables import Variable
+
+if TYPE_CHECKING:
+    from subslide.solver import Run
 
 CHECKSUM = "checksum"
 COMPRESSED_FROM = 1 << 16
 """Bytes from which a variable is compressed: below it, the gain is less than what chunks cost."""
 
 
-def write(path: Path | str, runs: list) -> None:
-    """Nothing; `path` holds the record of the runs (results of `solver.solve`), read back and verified."""
-    found = layout.variables(runs)
-    attrs = layout.attributes(runs, found)
-    attrs[CHECKSUM] = digest(found, attrs)
+def write(path: Path | str, runs: list["Run"]) -> None:
+    """Write the record of runs, read back and verified.
+
+    Parameters
+    ----------
+    path
+        File, which is written whole or not at all.
+    runs
+        Results of `solver.solve` that share one cell size, thinned (`records.thinning`).
+
+    Raises
+    ------
+    RecordError
+        If what was read back is not what was written.
+    """
+    variables = layout.variables(runs)
+    attrs = provenance.attributes(runs, variables)
+    attrs[CHECKSUM] = digest(variables, attrs)
     with replacing(path) as temporary:
-        _store(temporary, found, attrs)
+        _store(temporary, variables, attrs)
         read(temporary)
 
 
 def read(path: Path | str) -> tuple[dict[str, Variable], dict]:
-    """Variables by name, and global attributes, of a record; RecordError if its checksum does not match.
+    """Return the variables by name, and the global attributes, of a record.
 
     This is the plain reader; `subslide.results` gives xarray datasets.
+
+    Raises
+    ------
+    RecordError
+        If the file is not a whole record, as its checksum tells.
     """
     path = Path(path)
     if not path.is_file():
@@ -38,7 +61,7 @@ def read(path: Path | str) -> tuple[dict[str, Variable], dict]:
     try:
         with netCDF4.Dataset(os.fspath(path)) as data:
             data.set_auto_maskandscale(False)
-            found = {
+            variables = {
                 name: Variable(v.dimensions, _values(v), {key: v.getncattr(key) for key in v.ncattrs()})
                 for name, v in data.variables.items()
             }
@@ -47,17 +70,17 @@ def read(path: Path | str) -> tuple[dict[str, Variable], dict]:
         raise RecordError(f"{path}: the file is damaged or not a NetCDF file ({error})") from None
     if CHECKSUM not in attrs:
         raise RecordError(f"{path}: not a record of subslide: it has no checksum")
-    if attrs[CHECKSUM] != digest(found, attrs):
+    if attrs[CHECKSUM] != digest(variables, attrs):
         raise RecordError(f"{path}: the record is damaged: its content does not match its checksum")
-    return found, attrs
+    return variables, attrs
 
 
-def digest(found: dict[str, Variable], attrs: dict) -> str:
-    """SHA-256 (hex) over every variable and attribute in a fixed order, but for the checksum itself."""
+def digest(variables: dict[str, Variable], attrs: dict) -> str:
+    """Return the SHA-256 (hex) over every variable and attribute in a fixed order, but for the checksum itself."""
     total = hashlib.sha256(_attrs_text({k: v for k, v in attrs.items() if k != CHECKSUM}))
-    for name in sorted(found):
-        dims, values, own = found[name]
-        total.update(json.dumps([name, list(dims), list(values.shape)]).encode() + _attrs_text(own))
+    for name in sorted(variables):
+        dims, values, about = variables[name]
+        total.update(json.dumps([name, list(dims), list(values.shape)]).encode() + _attrs_text(about))
         if values.dtype.kind == "O":
             total.update(json.dumps([str(value) for value in values.ravel()]).encode())
         else:
@@ -66,33 +89,35 @@ def digest(found: dict[str, Variable], attrs: dict) -> str:
     return total.hexdigest()
 
 
-def _values(variable) -> np.ndarray:
+def _values(variable: netCDF4.Variable) -> np.ndarray:
+    """Return the values of a variable of a file; texts as objects."""
     values = variable[...]
     return np.asarray(values, dtype=object if variable.dtype is str else None)
 
 
 def _attrs_text(attrs: dict) -> bytes:
-    """Bytes of attributes, the same before and after they have been in a file."""
+    """Return bytes of attributes, the same before and after they have been in a file."""
     plain = {key: np.asarray(value).tolist() for key, value in attrs.items()}
     return json.dumps(plain, sort_keys=True).encode()
 
 
-def _store(path: Path, found: dict[str, Variable], attrs: dict) -> None:
+def _store(path: Path, variables: dict[str, Variable], attrs: dict) -> None:
+    """Write variables and attributes to a NetCDF file."""
     with netCDF4.Dataset(os.fspath(path), "w", format="NETCDF4") as data:
-        for name, variable in found.items():
+        for name, variable in variables.items():
             for dim, size in zip(variable.dims, variable.values.shape, strict=True):
                 if dim not in data.dimensions:
                     data.createDimension(dim, size)
             text = variable.values.dtype.kind == "O"
-            own = dict(variable.attrs)
+            about = dict(variable.attrs)
             target = data.createVariable(
                 name,
                 str if text else variable.values.dtype,
                 variable.dims,
-                fill_value=own.pop("_FillValue", None),
+                fill_value=about.pop("_FillValue", None),
                 compression="zlib" if not text and variable.values.nbytes >= COMPRESSED_FROM else None,
                 complevel=1,
             )
-            target.setncatts(own)
+            target.setncatts(about)
             target[...] = variable.values
         data.setncatts(attrs)

@@ -4,17 +4,21 @@ A run crawls where waves blow up, and is long where r is near 1 on fine grids.
 """
 
 import copy
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from subslide import fields
+from subslide import naming
+
+if TYPE_CHECKING:
+    from subslide.solver import Run
 
 LONGEST, HEAD = 10_000, 4_096
 """Most samples that a record keeps of a run, and how many of these are the run's first, one a step."""
 
 
-def thinned(run):
-    """The run with series (..., samples) of at most LONGEST samples; the run itself if they are no longer.
+def thinned(run: "Run") -> "Run":
+    """Return the run with series (..., samples) of at most LONGEST samples; the run itself if they are no longer.
 
     Kept are the first HEAD and, of every block of steps after them, the samples with the least and the largest value
     of each series and the first one; so no extremum of any series is lost or moved.
@@ -22,16 +26,16 @@ def thinned(run):
     count = len(run.time)
     if count <= LONGEST:
         return run
-    series = np.vstack([np.atleast_2d(getattr(run, name)) for name in fields.SERIES])
+    series = np.vstack([np.atleast_2d(getattr(run, name)) for name in naming.SERIES])
     kept = places(np.nan_to_num(series, posinf=np.inf, neginf=-np.inf))
     short = copy.copy(run)
-    for name in ("time", *fields.SERIES):
+    for name in ("time", *naming.SERIES):
         setattr(short, name, getattr(run, name)[..., kept])
     return short
 
 
-def places(series):
-    """Indices, sorted, of the samples that are kept of series (number, samples), longer than LONGEST."""
+def places(series: np.ndarray) -> np.ndarray:
+    """Return the indices, sorted, of the samples that are kept of series (number, samples), longer than LONGEST."""
     count = series.shape[1]
     blocks = np.array_split(np.arange(HEAD, count - 1), (LONGEST - HEAD - 1) // (2 * len(series) + 1))
     extremes = [

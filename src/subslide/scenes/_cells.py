@@ -1,9 +1,13 @@
 """Means over cells: the depth of a cell is the volume above it over its area, never the depth at its centre."""
 
+from collections.abc import Callable
+
 import numpy as np
 
+from subslide.scenes import Grid
 
-def over_plane(grid, quadrant):
+
+def over_plane(grid: Grid, quadrant: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
     """Return the values over the grid's plane or quarter of a scene with mirrors on both axes.
 
     quadrant: function of the non-negative edges (n + 1) that returns the values (n, n) of the cells between them. The
@@ -16,7 +20,12 @@ def over_plane(grid, quadrant):
     return values
 
 
-def means(function, x_edges, y_edges, points=16):
+def means(
+    function: Callable[[np.ndarray, np.ndarray], np.ndarray],
+    x_edges: np.ndarray,
+    y_edges: np.ndarray,
+    points: int = 16,
+) -> np.ndarray:
     """Return the means (ny, nx) of function(x, y) over cells, by the midpoints of points x points parts of each.
 
     Exact for linear functions; a kink of slope s costs s dx / (8 points^2) at most.

@@ -5,7 +5,13 @@ import math
 import numpy as np
 
 
-def ellipse_area(x_edges, y_edges, centre=(0.0, 0.0), semi_axes=(1.0, 1.0), angle=0.0):
+def ellipse_area(
+    x_edges: np.ndarray,
+    y_edges: np.ndarray,
+    centre: tuple[float, float] = (0.0, 0.0),
+    semi_axes: tuple[float, float] = (1.0, 1.0),
+    angle: float = 0.0,
+) -> np.ndarray:
     """Return the areas (ny, nx) that an ellipse shares with the cells between x_edges and y_edges.
 
     angle: from the x axis to the first semi-axis, in radians. Cells whole inside or outside are exact. The area is a
@@ -26,7 +32,9 @@ def ellipse_area(x_edges, y_edges, centre=(0.0, 0.0), semi_axes=(1.0, 1.0), angl
     return np.where(whole, cell, np.where(touched, np.clip(area, 0.0, cell), 0.0))
 
 
-def edge_area(u0, v0, u1, v1):
+def edge_area(
+    u0: np.ndarray, v0: np.ndarray, u1: np.ndarray, v1: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Return the area that the unit disc shares with the triangle (0, edge), signed, and whether the edge enters it."""
     du, dv = u1 - u0, v1 - v0
     a = du**2 + dv**2
@@ -40,16 +48,16 @@ def edge_area(u0, v0, u1, v1):
     return 0.5 * (chord + sectors), t1 > t0
 
 
-def turn(u0, v0, u1, v1):
+def turn(u0: np.ndarray, v0: np.ndarray, u1: np.ndarray, v1: np.ndarray) -> np.ndarray:
     """Return the angle from one point to another as seen from the origin."""
     return np.arctan2(u0 * v1 - v0 * u1, u0 * u1 + v0 * v1)
 
 
-def between(edges, place):
+def between(edges: np.ndarray, place: float) -> np.ndarray:
     """Return whether each cell (n) of a row holds a place."""
     return (edges[:-1] <= place) & (place <= edges[1:])
 
 
-def fraction(area, x_edges, y_edges):
+def fraction(area: np.ndarray, x_edges: np.ndarray, y_edges: np.ndarray) -> np.ndarray:
     """Return areas over those of their cells, at most 1."""
     return np.minimum(1.0, area / np.outer(np.diff(y_edges), np.diff(x_edges)))

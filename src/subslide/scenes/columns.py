@@ -3,10 +3,13 @@
 Where two columns overlap the height is 1. The front is measured from the middle of the box, along x.
 """
 
+from typing import Any
+
 import numpy as np
 
-from subslide.exact import half_box
-from subslide.scenes import SceneError, cylinder, options, still_water
+from subslide.keys.schema import ConfigError
+from subslide.points import Point
+from subslide.scenes import Grid, State, cylinder, options, still_water
 from subslide.scenes._cells import over_plane
 from subslide.scenes._discs import ellipse_area, fraction
 
@@ -32,49 +35,49 @@ OPTIONS = {
 }
 
 
-def spread(own):
+def spread(chosen: dict[str, Any]) -> float:
     """Return half the distance of the centres."""
-    return 0.5 * own["distance"] if own["count"] == 2 else 0.0
+    return 0.5 * chosen["distance"] if chosen["count"] == 2 else 0.0
 
 
-def symmetry(point):
+def symmetry(point: Point) -> str:
     """Return the scene's symmetry."""
-    own = options(point)
-    if own["x"] or own["y"]:
+    chosen = options(point)
+    if chosen["x"] or chosen["y"]:
         return "none"
-    return "quarter" if spread(own) else "round"
+    return "quarter" if spread(chosen) else "round"
 
 
-def check(point):
-    """Raise a `SceneError` unless all columns stand in the smallest box."""
-    own = options(point)
-    for axis, reach in (("x", 1.0 + spread(own)), ("y", 1.0)):
-        if abs(own[axis]) + reach > half_box(point):
-            raise SceneError(
-                f"scene_options: {axis}: {own[axis]:g} puts a column beyond the box, which ends at"
-                f" {half_box(point):.4g} R; allowed with these columns: at most {half_box(point) - reach:.4g} in size"
+def check(point: Point) -> None:
+    """Raise a ConfigError unless all columns stand in the smallest box."""
+    chosen = options(point)
+    for axis, reach in (("x", 1.0 + spread(chosen)), ("y", 1.0)):
+        if abs(chosen[axis]) + reach > point.half_box:
+            raise ConfigError(
+                f"scene_options: {axis}: {chosen[axis]:g} puts a column beyond the box, which ends at"
+                f" {point.half_box:.4g} R; allowed with these columns: at most {point.half_box - reach:.4g} in size"
             )
 
 
-def initial(grid, point):
+def initial(grid: Grid, point: Point) -> State:
     """Return the columns at rest under still water."""
-    own = options(point)
+    chosen = options(point)
     symmetric = symmetry(point)
     if symmetric == "round":
         return cylinder.initial(grid, point)
-    place, half = (own["x"], own["y"]), spread(own)
+    place, half = (chosen["x"], chosen["y"]), spread(chosen)
     if symmetric == "quarter":
         h2 = over_plane(grid, lambda e: union(e, e, place, half))
     else:
         h2 = union(grid.edges, grid.edges, place, half)
-        if own["y"] == 0:  # mirrors change no bit
+        if chosen["y"] == 0:  # mirrors change no bit
             h2 = 0.5 * (h2 + h2[::-1])
-        if own["x"] == 0:
+        if chosen["x"] == 0:
             h2 = 0.5 * (h2 + h2[:, ::-1])
-    return still_water(h2, 1.0 + point.a_H)
+    return still_water(h2, point.scaled_level)
 
 
-def union(x_edges, y_edges, place, half):
+def union(x_edges: np.ndarray, y_edges: np.ndarray, place: tuple[float, float], half: float) -> np.ndarray:
     """Return the fraction (ny, nx) of each cell within 1 of a centre at place[0] - half or + half along x.
 
     On either side of the line between the centres the nearer disc is the union of both.

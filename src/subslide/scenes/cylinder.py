@@ -2,32 +2,33 @@
 
 import numpy as np
 
-from subslide.scenes import still_water
+from subslide.points import Point
+from subslide.scenes import Grid, State, still_water
 from subslide.scenes._cells import over_plane
 
 OPTIONS = {}
 
 
-def symmetry(point):
+def symmetry(point: Point) -> str:
     """Return the scene's symmetry."""
     return "round"
 
 
-def initial(grid, point):
+def initial(grid: Grid, point: Point) -> State:
     """Return the column at rest under still water (alone for `one-layer`)."""
     lone = grid.geometry == "radius"
     h2 = radial_depth(grid.edges) if lone else over_plane(grid, quadrant_depth)
-    return still_water(h2, 1.0 + point.a_H)
+    return still_water(h2, point.scaled_level)
 
 
-def radial_depth(edges):
+def radial_depth(edges: np.ndarray) -> np.ndarray:
     """Return h2 (n) of the cells between the radii `edges` (n + 1): the exact fraction of each ring's area."""
     inner, outer = edges[:-1], edges[1:]
     covered = np.minimum(outer, 1.0) ** 2 - np.minimum(inner, 1.0) ** 2
     return np.where(outer <= 1.0, 1.0, covered / (outer**2 - inner**2))
 
 
-def quadrant_depth(edges):
+def quadrant_depth(edges: np.ndarray) -> np.ndarray:
     """Return h2 (n, n) of the cells between the non-negative `edges` (n + 1) on both axes: exact area fractions.
 
     Cells whole inside or outside the disc are exactly 1 or 0, and the result equals its transpose to the bit.
@@ -42,7 +43,7 @@ def quadrant_depth(edges):
     return np.where(farthest <= 1.0, 1.0, np.where(nearest >= 1.0, 0.0, fraction))
 
 
-def disc_corner_area(x, y):
+def disc_corner_area(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Return the area that the unit disc shares with [0, x] x [0, y], for x, y >= 0."""
     x = np.minimum(x, 1.0)
     y = np.minimum(y, 1.0)

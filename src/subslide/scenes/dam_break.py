@@ -6,40 +6,45 @@ The box needs `boundary: wall`. The answer is known exactly without friction, at
 
 import numpy as np
 
-from subslide.exact.dam_break import DEFAULTS, depth
-from subslide.scenes import State, check_walls, options, still_water
+from subslide.points import Point
+from subslide.scenes import Grid, State, check_walls, options, still_water
 
 OPTIONS = {
     "layer": {
         "description": "layer behind the dam",
         "enum": ["grains", "water"],
-        "default": DEFAULTS["layer"],
+        "default": "grains",
     },
     "downstream": {
         "description": "depth beyond the dam over the depth behind it; 0 is dry",
         "type": "number",
         "minimum": 0,
         "exclusiveMaximum": 1,
-        "default": DEFAULTS["downstream"],
+        "default": 0.0,
     },
 }
 
 
-def symmetry(point):
+def symmetry(point: Point) -> str:
     """Return the scene's symmetry."""
     return "line"
 
 
-def check(point):
-    """Raise a `SceneError` unless the box has walls for the grains behind the dam to lean on."""
+def check(point: Point) -> None:
+    """Raise a ConfigError unless the box has walls for the grains behind the dam to lean on."""
     if options(point)["layer"] == "grains":
         check_walls(point)
 
 
-def initial(grid, point):
+def initial(grid: Grid, point: Point) -> State:
     """Return the layer at rest behind its dam."""
-    own = options(point)
-    level = 1.0 + point.a_H
-    if own["layer"] == "water":
-        return State(depth(grid.centres, 0.0, level, own["downstream"] * level), np.zeros(len(grid.centres)))
-    return still_water(depth(grid.centres, 0.0, 1.0, own["downstream"]), level)
+    chosen = options(point)
+    level = point.scaled_level
+    if chosen["layer"] == "water":
+        return State(step(grid.centres, level, chosen["downstream"] * level), np.zeros(len(grid.centres)))
+    return still_water(step(grid.centres, 1.0, chosen["downstream"]), level)
+
+
+def step(x: np.ndarray, left: float, right: float) -> np.ndarray:
+    """Return the depth at x: ``left`` before the dam at 0, ``right`` from there on."""
+    return np.where(x < 0, left, right)

@@ -2,7 +2,8 @@
 
 import math
 
-from subslide.scenes import cylinder, options, still_water
+from subslide.points import Point
+from subslide.scenes import Grid, State, cylinder, options, still_water
 from subslide.scenes._cells import over_plane
 from subslide.scenes._discs import ellipse_area, fraction
 
@@ -25,26 +26,26 @@ OPTIONS = {
 }
 
 
-def symmetry(point):
+def symmetry(point: Point) -> str:
     """Return the scene's symmetry."""
-    own = options(point)
-    if own["elongation"] == 1:
+    chosen = options(point)
+    if chosen["elongation"] == 1:
         return "round"
-    return "quarter" if own["angle"] % 90 == 0 else "none"
+    return "quarter" if chosen["angle"] % 90 == 0 else "none"
 
 
-def initial(grid, point):
+def initial(grid: Grid, point: Point) -> State:
     """Return the column at rest under still water."""
-    own = options(point)
+    chosen = options(point)
     symmetric = symmetry(point)
     if symmetric == "round":
         return cylinder.initial(grid, point)
-    a = math.sqrt(own["elongation"])
+    a = math.sqrt(chosen["elongation"])
     if symmetric == "quarter":
-        axes = (a, 1 / a) if own["angle"] % 180 == 0 else (1 / a, a)
+        axes = (a, 1 / a) if chosen["angle"] % 180 == 0 else (1 / a, a)
         h2 = over_plane(grid, lambda e: fraction(ellipse_area(e, e, semi_axes=axes), e, e))
     else:
         e = grid.edges
-        h2 = fraction(ellipse_area(e, e, semi_axes=(a, 1 / a), angle=math.radians(own["angle"])), e, e)
+        h2 = fraction(ellipse_area(e, e, semi_axes=(a, 1 / a), angle=math.radians(chosen["angle"])), e, e)
         h2 = 0.5 * (h2 + h2[::-1, ::-1])  # half a turn changes no bit
-    return still_water(h2, 1.0 + point.a_H)
+    return still_water(h2, point.scaled_level)

@@ -5,22 +5,34 @@ Without friction and with r = 0 it spreads as `exact.paraboloid` says.
 
 import numpy as np
 
-from subslide.exact.paraboloid import depth, ring_mean
-from subslide.scenes import still_water
+from subslide.points import Point
+from subslide.scenes import Grid, State, still_water
 from subslide.scenes._cells import means, over_plane
 
 OPTIONS = {}
 
 
-def symmetry(point):
+def symmetry(point: Point) -> str:
     """Return the scene's symmetry."""
     return "round"
 
 
-def initial(grid, point):
+def initial(grid: Grid, point: Point) -> State:
     """Return the paraboloid at rest under still water."""
     if grid.geometry == "radius":
-        h2 = ring_mean(grid.edges, 0.0)
+        h2 = ring_mean(grid.edges)
     else:
-        h2 = over_plane(grid, lambda edges: means(lambda x, y: depth(np.hypot(x, y), 0.0), edges, edges))
-    return still_water(h2, 1.0 + point.a_H)
+        h2 = over_plane(grid, lambda edges: means(lambda x, y: depth(np.hypot(x, y)), edges, edges))
+    return still_water(h2, point.scaled_level)
+
+
+def depth(x: float | np.ndarray, rim: float = 1.0) -> np.ndarray:
+    """Return h = (1 - x^2/rim^2) / rim^2, 0 beyond the rim: the paraboloid, spread without loss of volume."""
+    return (1.0 / rim) ** 2 * np.maximum(0.0, 1.0 - (x / rim) ** 2)
+
+
+def ring_mean(edges: np.ndarray, rim: float = 1.0) -> np.ndarray:
+    """Return the mean depth (n) of the rings between the radii `edges` (n + 1)."""
+    s = np.minimum(edges / rim, 1.0) ** 2
+    volume = s / 2 - s**2 / 4  # over 2 pi, within each radius
+    return np.diff(volume) / (np.diff(edges**2) / 2)

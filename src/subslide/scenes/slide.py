@@ -6,8 +6,8 @@ The box needs `boundary: wall`.
 
 import numpy as np
 
-from subslide.exact.slide import DEFAULTS
-from subslide.scenes import check_walls, options, still_water
+from subslide.points import Point
+from subslide.scenes import Grid, State, check_walls, options, still_water
 
 OPTIONS = {
     "speed": {
@@ -15,21 +15,21 @@ OPTIONS = {
         "type": "number",
         "minimum": 0,
         "maximum": 10,
-        "default": DEFAULTS["speed"],
+        "default": 1.0,
     },
 }
 
 
-def symmetry(point):
+def symmetry(point: Point) -> str:
     """Return the scene's symmetry."""
     return "line"
 
 
-def check(point):
-    """Raise a `SceneError` unless the layer ends at walls."""
+def check(point: Point) -> None:
+    """Raise a ConfigError unless the layer ends at walls."""
     check_walls(point)
 
 
-def initial(grid, point):
+def initial(grid: Grid, point: Point) -> State:
     """Return the sliding layer under still water."""
-    return still_water(np.ones(len(grid.centres)), 1.0 + point.a_H)._replace(u2=options(point)["speed"])
+    return still_water(np.ones(len(grid.centres)), point.scaled_level)._replace(u2=options(point)["speed"])

@@ -1,5 +1,7 @@
-"""The ledger of a study: which batch solves which point. It only grows, so no solved point is ever solved again
-because of points that came later, and it is written by the process that plans, never by its jobs.
+"""Batches of a study: which one solves which point, as a ledger on the disk.
+
+The ledger only grows, so no solved point is ever solved again because of points that came later, and it is written by
+the process that plans, never by its jobs.
 
 Each batch is one file, `batches/NNNN.json`, with whole points; the union of the files is the ledger, and a
 point that two of them hold belongs to the first.
@@ -13,10 +15,12 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
-from subslide.files import write_json
-from subslide.jobs import file_hash
-from subslide.points import Point, to_dict
-from subslide.study.config import Study, kernels_of, solved_model
+from subslide import scenes
+from subslide.files import file_hash, write_json
+from subslide.keys.schema import ConfigError
+from subslide.points import Point, from_dict, paper_times, to_dict
+from subslide.study import choice
+from subslide.study.config import Study
 
 SECONDS = (2.0, 60.0)
 """Least and greatest estimated cost of a batch: starting a process costs a second; a lost batch at most a minute."""
@@ -32,7 +36,7 @@ MOST_POINTS, MOST_BYTES = 250, 256e6
 
 
 class Plan(NamedTuple):
-    """For each batch that a study's points are in, by name: the kernels that it needs, as 'model:dtype[:general]'."""
+    """Kernels, as 'model:dtype[:general]', of each batch that a study's points are in, by the batch's name."""
 
     batches: dict[str, str]
 
@@ -42,9 +46,22 @@ class LedgerError(RuntimeError):
 
 
 def plan(study: Study, folder: Path, extend: bool) -> Plan:
-    """Plan of a study; with `extend`, new points get batches and `points.json` states the runs and their order.
+    """Return the plan of a study.
 
-    folder: the study's folder of results. Only the process that plans may extend the ledger.
+    Parameters
+    ----------
+    study
+        The study.
+    folder
+        Its folder of results.
+    extend
+        Whether new points get batches, and `points.json` states the runs and their order; only the process that plans
+        may do so.
+
+    Raises
+    ------
+    LedgerError
+        If a point is in no batch and the ledger may not be extended.
     """
     owner, kernels = read(folder)
     solved = study.solved
@@ -62,11 +79,11 @@ def plan(study: Study, folder: Path, extend: bool) -> Plan:
 
 
 def _index(study: Study, owner: dict[str, str]) -> dict:
-    """What points.json holds: the runs in the order of the tables and, apart, the companions of a study with bands.
+    """Return what points.json holds: the runs in the order of the tables and, apart, the companions for bands.
 
     A companion states the id of its run (`of`) and its role; a point that is companion of two runs is there twice.
     """
-    found = {
+    index = {
         "study": study.name,
         "points": [
             {"id": point.id, "batch": owner[point.id], "numerics": label, **to_dict(point)}
@@ -74,15 +91,15 @@ def _index(study: Study, owner: dict[str, str]) -> dict:
         ],
     }
     if study.bands:
-        found["companions"] = [
+        index["companions"] = [
             {"id": point.id, "of": run.id, "role": role, "batch": owner[point.id], **to_dict(point)}
             for run, role, point in study.companions
         ]
-    return found
+    return index
 
 
 def read(folder: Path) -> tuple[dict[str, str], dict[str, str]]:
-    """Name of the batch of each point's id, and kernels of each batch.
+    """Return the name of the batch of each point's id, and the kernels of each batch.
 
     A file that cannot be read counts as empty: its points come anew.
     """
@@ -98,47 +115,71 @@ def read(folder: Path) -> tuple[dict[str, str], dict[str, str]]:
     return owner, kernels
 
 
+def read_batch(spec: Path | str) -> list[Point]:
+    """Return the points of a batch file.
+
+    Raises
+    ------
+    ConfigError
+        If it is no batch file, a point does not have its id, or its scene cannot be made.
+    """
+    try:
+        rows = json.loads(Path(spec).read_text(encoding="utf-8"))["points"]
+        points = {row.pop("id"): from_dict(row) for row in rows}
+    except FileNotFoundError:
+        raise ConfigError(f"{spec}: there is no such file") from None
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise ConfigError(f"{spec}: not a batch file ({type(error).__name__}: {error})") from None
+    for name, point in points.items():
+        if point.id != name:
+            raise ConfigError(f"{spec}: the values of {name} belong to {point.id}; was the file edited?")
+        try:
+            scenes.check(point)
+        except ConfigError as error:
+            raise ConfigError(f"{spec}: {name}: {error}") from None
+    return list(points.values())
+
+
 def split(points: list[Point]) -> list[list[Point]]:
-    """Batches of points: one cell size and one set of kernels in each, balanced by estimated cost.
+    """Return batches of points: one cell size and one set of kernels in each, balanced by estimated cost.
 
     The number of cores has no say, so that the files of a study do not depend on it.
     """
     groups = {}
     for point in points:
-        groups.setdefault((kernels_of(point), point.dx, point.fields), []).append(point)
+        groups.setdefault((choice.kernels(point), point.dx, point.fields), []).append(point)
     total = sum(cost(point) for point in points)
     target = min(max(total / PARTS, SECONDS[0]), SECONDS[1])
     return [batch for group in groups.values() for batch in _balanced(group, target)]
 
 
 def cost(point: Point) -> float:
-    """Estimated seconds of a run on one core: cells times steps, and a start.
+    """Return the estimated seconds of a run on one core: cells times steps, and a start.
 
     A step is limited by the fastest wave, sqrt(g (H1 + H2)), over the paper's time unless the run has one of its own.
     """
     half = point.cells / 2
     cells, kind = {"quarter": (half**2, "planar"), "plane": (4 * half**2, "planar")}.get(
-        solved_model(point), (half, "axial")
+        choice.of(point).model, (half, "axial")
     )
-    seconds = point.t_end or 0.54 * math.sqrt(point.radius / 0.0705)
-    fastest = math.sqrt(point.g * point.a_2 * point.radius * (1 + point.a_H))
-    steps = seconds * fastest / (point.cfl * point.dx) * (2 if kind == "planar" else 1)
+    seconds = point.t_end or paper_times(point.radius)[-1]
+    steps = seconds * point.wave_speed / (point.cfl * point.dx) * (2 if kind == "planar" else 1)
     return 0.005 + SECONDS_PER_CELL[kind] * cells * steps * point.order
 
 
 def damaged(folder: Path, batches: Iterable[str]) -> list[Path]:
-    """Records, of these batches, whose bytes do not match the SHA-256 that was stored beside them."""
-    found = []
+    """Return the records, of these batches, whose bytes do not match the SHA-256 that was stored beside them."""
+    wrong = []
     for name in batches:
         record = folder / "records" / f"{name}.nc"
         stated = record.with_name(record.name + ".sha256")
         if record.exists() and stated.exists() and stated.read_text().split()[:1] != [file_hash(record)]:
-            found.append(record)
-    return found
+            wrong.append(record)
+    return wrong
 
 
 def _balanced(points: list[Point], target: float) -> list[list[Point]]:
-    """Points in bins of about `target` seconds each: the costliest first, into the least filled bin."""
+    """Return points in bins of about `target` seconds each: the costliest first, into the least filled bin."""
     total = sum(cost(point) for point in points)
     size = sum(_bytes(point) for point in points)
     bins = max(math.ceil(total / target), math.ceil(len(points) / MOST_POINTS), math.ceil(size / MOST_BYTES))
@@ -152,13 +193,13 @@ def _balanced(points: list[Point], target: float) -> list[list[Point]]:
 
 
 def _bytes(point: Point) -> float:
-    """Estimated size of a run in a record."""
+    """Return the estimated bytes of a run in a record."""
     across = point.cells * 1.2
     return 80.0 * 2.4 * across + (5 * 2 * 4 * across**2 if point.fields else 0)
 
 
 def _append(folder: Path, batches: list[list[Point]]) -> None:
-    """Nothing; each batch has a new file, or, where another process took its number first, the rest is left out."""
+    """Write each batch to a new file; where another process took its number first, the rest is left out."""
     home = folder / "batches"
     home.mkdir(parents=True, exist_ok=True)
     number = max((int(path.stem) for path in home.glob("[0-9]*.json")), default=0)
@@ -167,7 +208,7 @@ def _append(folder: Path, batches: list[list[Point]]) -> None:
         temporary = home / f".{uuid.uuid4().hex}.tmp"
         try:
             rows = [{"id": point.id, **to_dict(point)} for point in points]
-            write_json(temporary, {"kernels": kernels_of(points[0]), "points": rows})
+            write_json(temporary, {"kernels": choice.kernels(points[0]), "points": rows})
             os.link(temporary, home / f"{number:04d}.json")  # fails if the name is taken, unlike a rename
         except FileExistsError:
             return

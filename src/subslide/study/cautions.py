@@ -1,20 +1,31 @@
 """Regions of parameters and numerics that the stability atlas found unsafe: a run in one says so once, on stderr.
 
-Each region is earned: tests/study/test_guard.py solves its `example` and shows that it fails, gains energy or misses
+Each region is earned: tests/study/test_cautions.py solves its `example` and shows that it fails, gains energy or misses
 the answer, where the same run with what the region suggests does not. Imports no kernels.
 """
 
 from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
-from subslide.points import Point, friction_number
+from subslide import scenes
+from subslide.points import Point
 
 
 class Region(NamedTuple):
-    """A region: whether a point lies in it, why it is unsafe, what to choose instead, and where that was seen:
-    the study, and its part.
+    """Region of unsafe points.
 
-    example: keys of a run in it that shows the harm; instead: keys that mend that run.
+    Attributes
+    ----------
+    name
+        What it is called.
+    holds
+        Function that tells whether a point lies in it.
+    reason, advice
+        Why it is unsafe, and what to choose instead.
+    example, instead
+        Keys of a run in it that shows the harm, and keys that mend that run.
+    seen
+        Study, and its part, where that was seen.
     """
 
     name: str
@@ -38,39 +49,39 @@ LARGEST_CFL = 1.0
 
 
 def _under_film(point: Point) -> bool:
+    """Return whether a film of water lies over a column of which some stays at rest."""
     return (
         point.scene in ("cylinder", "columns", "ellipse")
         and point.model != "one-layer"
         and point.quantities == "all"
         and point.a_H < FILM
-        and HELD[0] <= friction_number(point) <= HELD[1]
+        and HELD[0] <= point.friction_number <= HELD[1]
         and point.r < 0.9
     )
 
 
 def _far(point: Point) -> bool:
-    return point.t_end is None and point.friction == "coulomb" and friction_number(point) < LEAST_FRICTION
+    """Return whether grains run out of the largest box, or for ever."""
+    return point.t_end is None and point.friction == "coulomb" and point.friction_number < LEAST_FRICTION
 
 
 def _floating(point: Point) -> bool:
+    """Return whether grains nearly float, in a solver that resolves the waves between the layers."""
     return point.r > FLOATING and point.model != "one-layer" and point.scheme in ("ifcph", "ifcp", "roe")
 
 
 def _standing_jump(point: Point) -> bool:
+    """Return whether a dam breaks over a dry bed in a solver that may keep a jump there."""
     if point.scene != "dam_break" or point.order != 1 or point.scheme not in ("ifcp", "roe"):
         return False
-    return _option(point, "downstream") == 0
+    return scenes.options(point)["downstream"] == 0
 
 
 def _sliding(point: Point) -> bool:
-    return point.scene == "shear" and point.treatment in ("real", "hll") and _option(point, "shear") > 1
-
-
-def _option(point: Point, name: str):
-    """Option of a point's scene, or the default of its exact solution."""
-    from subslide import exact
-
-    return {**exact.load(point.scene).DEFAULTS, **dict(point.scene_options)}[name]
+    """Return whether layers slide so fast over each other that their waves grow without end."""
+    return (
+        point.scene == "shear" and point.treatment in ("real", "hll") and scenes.options(point)["shear"] > 1
+    )
 
 
 REGIONS = (
@@ -178,12 +189,12 @@ REGIONS = (
 
 
 def regions_of(point: Point) -> list[Region]:
-    """Regions that a point lies in."""
+    """Return the regions that a point lies in."""
     return [region for region in REGIONS if region.holds(point)]
 
 
 def cautions(points: Iterable[Point]) -> list[str]:
-    """Lines to say of points, one for each region that any lies in, with how many do where there are several."""
+    """Return the lines to say of points, one for each region that any lies in, with how many do out of several."""
     points = list(points)
     lines = []
     for region in REGIONS:

@@ -1,6 +1,11 @@
 """The choice of model: the cheapest that is exact for what is asked of a point. Imports no kernels."""
 
+import functools
+from typing import NamedTuple
+
 from subslide import scenes
+from subslide.keys.entries import ENTRIES
+from subslide.points import RUN_KEYS, Point
 
 EXACT = {
     "round": ("radial", "quarter", "plane"),
@@ -17,45 +22,65 @@ WORDS = {
     "none": "scene without mirrors",
 }
 
+LEAN = {key: tuple(ENTRIES[key]["lean"]) for key in RUN_KEYS if "lean" in ENTRIES[key]}
+"""Values that the lean kernels know, of each key that has others."""
 
-def exact_models(point):
+MOST_KEPT = 1 << 18
+"""Choices that are remembered: those of the largest study, and some."""
+
+
+class Choice(NamedTuple):
+    """How a point is solved.
+
+    Attributes
+    ----------
+    model
+        Model, one of `subslide.keys.names.MODELS`.
+    geometry
+        Geometry of its grid: ``radius``, ``line``, ``quarter`` or ``plane``.
+    reason
+        Why it has that model, in words.
+    general
+        Whether it needs the general kernels: whatever the lean ones leave out for speed.
+    """
+
+    model: str
+    geometry: str
+    reason: str
+    general: bool
+
+
+@functools.lru_cache(MOST_KEPT)
+def of(point: Point) -> Choice:
+    """Return how a point is solved: by its own model, or for `auto` by the cheapest that gives all that is asked."""
+    symmetry = scenes.symmetry(point)
+    model, reason = point.model, "asked for"
+    if model == "auto":
+        models = exact_models(point)
+        if point.quantities != "grains":
+            models = tuple(name for name in models if name != "one-layer")
+        model, reason = models[0], f"auto: {WORDS[symmetry]}"
+        if model == "one-layer":
+            reason += ", r = 0 and grains alone asked for"
+    general = any(getattr(point, key) not in known for key, known in LEAN.items())
+    return Choice(model, _geometry(model, symmetry), reason, general)
+
+
+def exact_models(point: Point) -> tuple[str, ...]:
     """Return the models that give the answer for the point's scene and densities, the cheapest first."""
     symmetry = scenes.symmetry(point)
     alone = ("one-layer",) if symmetry in ("round", "line") and point.r == 0 else ()
     return alone + EXACT[symmetry]
 
 
-def resolve_model(point):
-    """Return the model of a point: its own, or for `auto` the cheapest that gives all that is asked for."""
-    if point.model != "auto":
-        return point.model
-    models = exact_models(point)
-    return models[0] if point.quantities == "grains" else next(name for name in models if name != "one-layer")
+def kernels(point: Point) -> str:
+    """Return the name of the compiled code that a point needs: ``model:dtype``, or ``model:dtype:general``."""
+    choice = of(point)
+    return f"{choice.model}:{point.dtype}" + (":general" if choice.general else "")
 
 
-def model_reason(point):
-    """Return why a point has its model, in words."""
-    if point.model != "auto":
-        return "asked for"
-    reason = WORDS[scenes.symmetry(point)]
-    lone = resolve_model(point) == "one-layer"
-    return f"auto: {reason}, r = 0 and grains alone asked for" if lone else f"auto: {reason}"
-
-
-def geometry(model, point):
-    """Return the geometry of a model's grid: "radius", "line", "quarter" or "plane"."""
+def _geometry(model: str, symmetry: str) -> str:
+    """Return the geometry of a model's grid for scenes of a symmetry."""
     if model == "one-layer":
-        return "line" if scenes.symmetry(point) == "line" else "radius"
+        return "line" if symmetry == "line" else "radius"
     return {"radial": "radius"}.get(model, model)
-
-
-def needs_general(point):
-    """Return whether a point needs the general kernels: whatever the lean ones leave out for speed."""
-    lean = {
-        "wave_speeds": "exact",
-        "friction": "coulomb",
-        "treatment": "real",
-        "as_printed": "none",
-        "friction_in_viscosity": True,
-    }
-    return point.scheme == "roe" or any(getattr(point, key) != value for key, value in lean.items())

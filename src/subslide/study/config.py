@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from subslide import catalogue, scenes
-from subslide.keys import schema
+from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS, Point, from_dict
 from subslide.study import choice, scene_options
@@ -31,8 +31,19 @@ COARSENING = {"cells/2": 2, "cells/4": 4}
 
 @dataclass(frozen=True)
 class Study:
-    """A checked study: its name, the figures to draw, its runs as (label of numerics, point), without repeats, and
-    whether each run has companions on coarser grids."""
+    """Checked study.
+
+    Attributes
+    ----------
+    name
+        Name of its folder of results.
+    figures
+        Names of the figures to draw.
+    runs
+        Label of the numerics, and point, of each run, without repeats, in the order of the tables.
+    bands
+        Whether each run has companions on coarser grids.
+    """
 
     name: str
     figures: tuple[str, ...]
@@ -57,12 +68,18 @@ class Study:
     @property
     def solved(self) -> tuple[Point, ...]:
         """Points to solve, without repeats: the runs, then those companions that are not runs as well."""
-        found = {point.id: point for point in (*self.points, *(point for *_, point in self.companions))}
-        return tuple(found.values())
+        companions = (point for *_, point in self.companions)
+        return tuple({point.id: point for point in (*self.points, *companions)}.values())
 
 
 def read_study(path: Path | str) -> Study:
-    """Checked study of a YAML file; ConfigError in one line, which begins with the path, if anything is wrong."""
+    """Return the checked study of a YAML file.
+
+    Raises
+    ------
+    ConfigError
+        If anything is wrong: one line, which begins with the path.
+    """
     values = read_yaml(path)
     try:
         return make_study(values)
@@ -71,12 +88,18 @@ def read_study(path: Path | str) -> Study:
 
 
 def make_study(values: dict) -> Study:
-    """Checked study of a mapping such as a YAML file holds."""
+    """Return the checked study of a mapping such as a YAML file holds.
+
+    Raises
+    ------
+    ConfigError
+        If anything is wrong: one line that names the key, its value and what is allowed.
+    """
     _check_keys(values)
     if "study" not in values:
-        raise ConfigError(f"study: this key is missing; allowed: {schema.allowed('study')}")
+        raise ConfigError(f"study: this key is missing; allowed: {words.allowed('study')}")
     name = schema.checked("study", values["study"])
-    bands = schema.checked("bands", values.get("bands", schema.properties()["bands"]["default"]))
+    bands = schema.checked("bands", values.get("bands", False))
     grids = _grids(values)
     count = sum(math.prod(map(len, axes.values())) for _, axes in grids)
     if count > MOST_POINTS:
@@ -91,11 +114,24 @@ def make_study(values: dict) -> Study:
 
 
 def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
-    """Point of a mapping with one value for each key; `names` are the keys' names in messages (options)."""
+    """Return the point of a mapping with one value for each key.
+
+    Parameters
+    ----------
+    values
+        Value by key; a list of one value stands for the value.
+    names
+        What messages call a key, such as the option of the command line, where that is not its name.
+
+    Raises
+    ------
+    ConfigError
+        If anything is wrong: one line that names the key, its value and what is allowed.
+    """
     _check_keys(values)
     if "cases" in values:
         raise ConfigError(
-            f"cases: {schema.show(values['cases'])} is not allowed for one run; allowed: only in a study"
+            f"cases: {words.show(values['cases'])} is not allowed for one run; allowed: only in a study"
         )
     names = names or {}
     single = {}
@@ -104,83 +140,76 @@ def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
             continue
         if schema.is_axis(key) and isinstance(value, list):
             if len(value) != 1:
-                raise ConfigError(f"{key}: {schema.show(value)} has {len(value)} values; a run takes one")
+                raise ConfigError(f"{key}: {words.show(value)} has {len(value)} values; a run takes one")
             value = value[0]
         single[key] = schema.checked(key, value, names.get(key, key))
     return resolve(single, names)[1]
 
 
 def resolve(values: dict, names: dict[str, str] | None = None) -> tuple[str, Point]:
-    """Label of the numerics, and the point, of checked single values by key; scene options are checked here."""
+    """Return the label of the numerics, and the point, of single values by key, each checked.
+
+    Scene options are checked here, and whether the values go with one another.
+    """
     values = dict(values)
     name = (names or {}).get("scene_options", "scene_options")
     scene, given = values.get("scene", Point.scene), values.get("scene_options", {})
     values["scene_options"] = scene_options.checked(scene, given, name)
     label = values.pop("numerics", schema.properties()["numerics"]["default"])
     point = from_dict({**schema.properties()["numerics"]["presets"][label], **values})
+    check_together(point)
+    return label, point
+
+
+def check_together(point: Point) -> None:
+    """Raise a ConfigError if values of a point, each allowed, do not go with one another."""
     if point.model == "one-layer" and point.r != 0:
         raise ConfigError(f"model: one-layer is not allowed with r: {point.r:g}; allowed: only with r: 0")
-    try:
-        scenes.check(point)
-    except scenes.SceneError as error:
-        raise ConfigError(str(error)) from None
-    if point.model not in ("auto", *choice.exact_models(point)):
+    scenes.check(point)
+    models = choice.exact_models(point)
+    if point.model not in ("auto", *models):
         raise ConfigError(
             f"model: {point.model} is not allowed with scene: {point.scene}, a"
-            f" {choice.WORDS[scenes.symmetry(point)]}; allowed: auto, {', '.join(choice.exact_models(point))}"
+            f" {choice.WORDS[scenes.symmetry(point)]}; allowed: auto, {', '.join(models)}"
         )
-    model = choice.resolve_model(point)
-    geometry = choice.geometry(model, point)
+    model, geometry, reason, _ = choice.of(point)
     for (key, value), geometries in GEOMETRIES.items():
         if getattr(point, key) == value and geometry not in geometries:
             raise ConfigError(
-                f"{key}: {schema.show(value)} is not allowed with model: {model} ({choice.model_reason(point)});"
+                f"{key}: {words.show(value)} is not allowed with model: {model} ({reason});"
                 f" allowed: {', '.join(geometries)}"
             )
     if geometry in PLANE and point.cells > MOST_PLANE_CELLS:
         raise ConfigError(
             f"cells: {point.cells} is not allowed in the plane; allowed: at most {MOST_PLANE_CELLS}"
         )
-    return label, point
-
-
-def solved_model(point: Point) -> str:
-    """Model that a point is solved with: its own, or what `auto` chooses."""
-    return choice.resolve_model(point)
-
-
-def kernels_of(point: Point) -> str:
-    """Name of the compiled code that a point needs: 'model:dtype', and ':general' where the lean one is too little."""
-    return f"{choice.resolve_model(point)}:{point.dtype}" + (
-        ":general" if choice.needs_general(point) else ""
-    )
 
 
 def _grids(values: dict) -> list[tuple[str, dict[str, list]]]:
-    """Place in messages, and axes by key, of each case; without `cases`, of the one grid, which has no place."""
+    """Return the place in messages, and the axes by key, of each case; without `cases` of the one grid, placeless."""
     shared = _axes(values)
     if "cases" not in values:
         return [("", shared)]
-    found = []
+    grids = []
     for n, case in enumerate(schema.checked("cases", values["cases"])):
         place = f"cases[{n}]"
         if not isinstance(case, dict):
-            shown = schema.show(case)
+            shown = words.show(case)
             raise ConfigError(f"{place}: {shown} is not allowed; allowed: a mapping of keys of a run")
         with _named(f"{place}."):
             _check_keys(case, CASE_KEYS)
             axes = {**shared, **_axes(case)}
-        found.append((f"{place}.", {key: axes[key] for key in CASE_KEYS if key in axes}))
-    return found
+        grids.append((f"{place}.", {key: axes[key] for key in CASE_KEYS if key in axes}))
+    return grids
 
 
 def _axes(values: dict) -> dict[str, list]:
-    """Values along its axis, checked, of each key of a run that a mapping has."""
+    """Return the values along its axis, checked, of each key of a run that a mapping has."""
     return {key: _axis(key, values[key]) for key in CASE_KEYS if key in values}
 
 
 def _product(axes: dict[str, list], bands: bool) -> Iterator[tuple[str, Point]]:
-    """Label of the numerics, and point, of each combination along the axes; `bands`: cells must halve twice."""
+    """Yield the label of the numerics, and the point, of each combination of axes; `bands`: cells must halve twice."""
     for combination in itertools.product(*axes.values()):
         label, point = resolve(dict(zip(axes, combination, strict=True)))
         coarsest, left = divmod(point.cells, max(COARSENING.values()))
@@ -194,7 +223,7 @@ def _product(axes: dict[str, list], bands: bool) -> Iterator[tuple[str, Point]]:
 
 @contextlib.contextmanager
 def _named(place: str) -> Iterator[None]:
-    """Context in which the message of a ConfigError, which begins with a key, gets the key's place before it."""
+    """Put the place of a key before the message, which begins with the key, of a ConfigError raised in this context."""
     try:
         yield
     except ConfigError as error:
@@ -202,38 +231,38 @@ def _named(place: str) -> Iterator[None]:
 
 
 def _check_keys(values: dict, known: Collection[str] | None = None) -> None:
-    """Nothing; ConfigError unless every key is known: one of a study, or of `known`, those of a case."""
+    """Raise a ConfigError unless every key is known: one of a study, or of `known`, those of a case."""
     known = schema.properties() if known is None else known
     for key in values:
         if key in known:
             continue
         if key in schema.properties():
             raise ConfigError(
-                f"{key}: {schema.show(values[key])} is not allowed within a case; allowed: only for a whole study"
+                f"{key}: {words.show(values[key])} is not allowed within a case; allowed: only for a whole study"
             )
-        hint = schema.closest(key, known)
+        hint = words.closest(key, known)
         listed = "" if hint else f"; allowed: {', '.join(known)}"
         raise ConfigError(
-            f"{schema.show(key)}: there is no such key (its value: {schema.show(values[key])}){hint}{listed}"
+            f"{words.show(key)}: there is no such key (its value: {words.show(values[key])}){hint}{listed}"
         )
 
 
 def _axis(key: str, value) -> list:
-    """Values of one key along its axis, checked, without repeats."""
+    """Return the values of one key along its axis, checked, without repeats."""
     if key == "scene_options":
         return scene_options.along_axes(schema.checked(key, value))
     if not (schema.is_axis(key) and isinstance(value, list)):
         return [schema.checked(key, value)]
     if not value:
         raise ConfigError(
-            f"{key}: [] makes an empty grid; allowed: {schema.allowed(key)}, or a list of at least one"
+            f"{key}: [] makes an empty grid; allowed: {words.allowed(key)}, or a list of at least one"
         )
     entries = [schema.checked(key, entry) for entry in value]
     return list(dict.fromkeys(entries))
 
 
 def _chosen_figures(values: dict, points: list[Point]) -> tuple[str, ...]:
-    """Names of the figures of a study: those asked for, or all whose runs it has."""
+    """Return the names of the figures of a study: those asked for, or all whose runs it has."""
     chosen = schema.checked("figures", values.get("figures", "auto"))
     known = catalogue.names("figures")
     if chosen == "none":
@@ -242,9 +271,9 @@ def _chosen_figures(values: dict, points: list[Point]) -> tuple[str, ...]:
         return tuple(name for name in known if not _lacking(name, points))
     for name in chosen:
         if name not in known:
-            hint = schema.closest(name, known)
+            hint = words.closest(name, known)
             raise ConfigError(
-                f"figures: {schema.show(name)} is not allowed; allowed: {', '.join(known) or 'none'}{hint}"
+                f"figures: {words.show(name)} is not allowed; allowed: {', '.join(known) or 'none'}{hint}"
             )
         if lack := _lacking(name, points):
             raise ConfigError(f"figures: {name} needs runs with {lack}, which this study does not have")
@@ -252,7 +281,7 @@ def _chosen_figures(values: dict, points: list[Point]) -> tuple[str, ...]:
 
 
 def _lacking(name: str, points: list[Point]) -> str:
-    """First 'key: value' that a figure needs and no point has, or ''."""
+    """Return the first 'key: value' that a figure needs and no point has, or ''."""
     for key, needed in catalogue.figure(name).needs.items():
         present = {getattr(point, key) for point in points}
         for value in needed:

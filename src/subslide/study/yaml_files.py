@@ -2,19 +2,25 @@
 
 from pathlib import Path
 
-from subslide.keys import schema
+from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
 
 
 def read_yaml(path: Path | str) -> dict:
-    """Mapping in a YAML file, unchecked but for repeated keys; ConfigError in one line if it cannot be read."""
+    """Return the mapping in a YAML file, unchecked but for repeated keys.
+
+    Raises
+    ------
+    ConfigError
+        If the file cannot be read as one: one line with its path.
+    """
     import yaml
 
     path = Path(path)
     try:
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError:
-        near = schema.closest(path.name, [p.name for p in path.parent.glob("*.y*ml")])
+        near = words.closest(path.name, [p.name for p in path.parent.glob("*.y*ml")])
         raise ConfigError(f"{path}: there is no such file{near}") from None
     except UnicodeDecodeError:
         raise ConfigError(f"{path}: this is not a text file in UTF-8") from None
@@ -30,16 +36,16 @@ def read_yaml(path: Path | str) -> dict:
     if values is None:
         raise ConfigError(f"{path}: the file is empty; allowed keys: {', '.join(schema.properties())}")
     if not isinstance(values, dict):
-        raise ConfigError(f"{path}: expected lines of 'key: value', found {schema.show(values)}")
+        raise ConfigError(f"{path}: expected lines of 'key: value', found {words.show(values)}")
     return values
 
 
 def _strict_loader():
-    """YAML loader that refuses a key given twice; the plain one keeps the last in silence."""
+    """Return a YAML loader that refuses a key given twice; the plain one keeps the last in silence."""
     import yaml
 
     class Loader(yaml.SafeLoader):
-        pass
+        """Loader that is given a check of its own for mappings."""
 
     def mapping(loader, node, deep=False):
         seen = set()

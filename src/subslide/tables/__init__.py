@@ -30,7 +30,7 @@ import importlib
 from types import ModuleType
 
 from subslide import catalogue
-from subslide.keys import schema
+from subslide.keys import words
 from subslide.keys.schema import ConfigError
 
 
@@ -39,7 +39,7 @@ def load(name: str) -> ModuleType:
     known = catalogue.names("tables")
     if name not in known:
         raise ConfigError(
-            f"table: {name} is not allowed; allowed: {', '.join(known)}{schema.closest(name, known)}"
+            f"table: {name} is not allowed; allowed: {', '.join(known)}{words.closest(name, known)}"
         )
     return importlib.import_module(f"{__name__}.{name}")
 

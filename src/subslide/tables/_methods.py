@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from subslide.fields import FINISHED
+from subslide.naming import FINISHED
 from subslide.points import Point
 from subslide.study import cautions
 from subslide.tables import atlas

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from subslide.fields import FRONT_LABELS
+from subslide.naming import FRONT_LABELS
 from subslide.points import Point
 
 GAUSS = ((-math.sqrt(0.6), 5 / 18), (0.0, 8 / 18), (math.sqrt(0.6), 5 / 18))

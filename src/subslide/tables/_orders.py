@@ -4,6 +4,7 @@ import json
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
+from subslide import scenes
 from subslide.tables import errors
 from subslide.tables._aligned import aligned
 
@@ -84,7 +85,7 @@ def line(rows: "pd.DataFrame") -> Line:
 
 def case(row) -> str:
     """Return the name of a row's scene, model and options that are not at their defaults."""
-    defaults = errors.defaults(row.scene)
+    defaults = scenes.defaults(row.scene)
     told = [
         value if isinstance(value, str) else f"{name} {value:g}"
         for name, value in json.loads(row.options).items()

@@ -7,7 +7,8 @@ from typing import NamedTuple
 from subslide import points
 from subslide.keys import schema
 from subslide.points import Point, from_dict, paper_times, to_dict
-from subslide.study.config import COARSENING, solved_model
+from subslide.study import choice
+from subslide.study.config import COARSENING
 
 METHOD = tuple(key for key in schema.with_role("method") if key != "cells")
 """Keys of a method: all numerics but the cells."""
@@ -24,7 +25,7 @@ class Problem(NamedTuple):
 
 def method(point: Point) -> tuple:
     """Return the values of METHOD of a point, with the model that is solved."""
-    return tuple(solved_model(point) if key == "model" else getattr(point, key) for key in METHOD)
+    return tuple(choice.of(point).model if key == "model" else getattr(point, key) for key in METHOD)
 
 
 DEFAULT = method(Point())
@@ -46,7 +47,7 @@ def problems(among: Iterable[Point]) -> list[Problem]:
         if point.scene == "cylinder":
             groups.setdefault(_physics(point), []).append(point)
     columns = [Problem(tuple(group), _truth(group)) for group in groups.values()]
-    return [one for one in columns if one.truth and any(solved_model(p) in PLANES for p in one.points)]
+    return [one for one in columns if one.truth and any(choice.of(p).model in PLANES for p in one.points)]
 
 
 def _truth(group: list[Point]) -> tuple[Point, ...]:

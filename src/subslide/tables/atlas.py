@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from subslide import exact
-from subslide.fields import FINISHED
-from subslide.keys import schema
+from subslide.keys import schema, words
+from subslide.naming import FINISHED
 from subslide.points import RUN_KEYS, Point, options_text
 from subslide.study.config import Study
 from subslide.tables import _energy as energy
@@ -45,7 +45,7 @@ GAINED = 0.1
 COLUMNS = {
     "id": ("", "name of the run"),
     **{
-        key: (schema.unit(key), schema.properties()[key]["description"])
+        key: (words.unit(key), schema.properties()[key]["description"])
         for key in RUN_KEYS
         if key not in ASIDE
     },

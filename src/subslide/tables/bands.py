@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from subslide.fields import FINISHED, FRONT_LABELS
 from subslide.keys.schema import ConfigError
+from subslide.naming import FINISHED, FRONT_LABELS
 from subslide.points import Point
 from subslide.study.config import COARSENING, Study
 from subslide.tables import _convergence as convergence

@@ -24,8 +24,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from subslide import catalogue, exact
-from subslide.fields import FRONT_LABELS
-from subslide.keys import schema
+from subslide.keys import schema, words
+from subslide.naming import FRONT_LABELS
 from subslide.points import Point, options_text, to_dict
 from subslide.study.config import Study
 from subslide.tables import _norms
@@ -41,7 +41,7 @@ COLUMNS = {
     "id": ("", "name of the run"),
     "scene": ("", "initial state"),
     "options": ("", "options of the scene (JSON)"),
-    **{key: (schema.unit(key), schema.properties()[key]["description"]) for key in METHOD},
+    **{key: (words.unit(key), schema.properties()[key]["description"]) for key in METHOD},
     "model": ("", "geometry that was solved"),
     "time": ("s", "elapsed time since release"),
     "quantity": ("", "what is compared, see above"),
@@ -142,11 +142,6 @@ def run_rows(point: Point, record: dict) -> Iterator[dict]:
             plain = quantity in ("h2", "eta")
             row = {"time": time, "quantity": quantity, "error": error}
             yield {**about_run, **row, "expected_order": order if plain else math.nan}
-
-
-def defaults(scene: str) -> dict:
-    """Return the options of a scene that its exact solution assumes where a point leaves them out."""
-    return getattr(exact.load(scene), "DEFAULTS", {})
 
 
 def expected(point: Point, model: str) -> tuple[float, bool]:

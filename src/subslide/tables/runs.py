@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from subslide import fields
-from subslide.fields import FRONT_LABELS
-from subslide.keys import schema
-from subslide.points import PAPER_BOX, RUN_KEYS, friction_number, options_text
+from subslide import naming
+from subslide.keys import schema, words
+from subslide.naming import FRONT_LABELS
+from subslide.points import PAPER_BOX, RUN_KEYS, options_text
 from subslide.study.config import Study
 from subslide.tables import bands
 
@@ -34,7 +34,7 @@ class Column(NamedTuple):
 
 def _asked(key: str) -> Column:
     """Return the column of a key of the configuration."""
-    unit, meaning = schema.unit(key), schema.properties()[key]["description"]
+    unit, meaning = words.unit(key), schema.properties()[key]["description"]
     if key == "scene_options":
         return Column(unit, meaning, lambda run, record: options_text(run.point))
     if key == "t_end":
@@ -78,7 +78,7 @@ def _volume_error(name: str, meaning: str) -> Column:
     )
 
 
-STATUS = "how the run ended: " + "; ".join(f"`{name}`: {text}" for name, text in fields.STATUSES.items())
+STATUS = "how the run ended: " + "; ".join(f"`{name}`: {text}" for name, text in naming.STATUSES.items())
 REST = "time since which no grain has moved (late waves may nudge a few); empty if some move at the end"
 MARGIN = (
     "smallest margin to complex wave speeds at any time, a discriminant: 1 at rest, below 0 where complex"
@@ -94,7 +94,7 @@ COLUMNS_OF_RUN = {
         "", "named set of numerics that the study asked for", lambda run, record: run.numerics
     ),
     **{key: _asked(key) for key in RUN_KEYS if key != "snapshot_times"},
-    "m": Column("", SCALED, lambda run, record: friction_number(run.point)),
+    "m": Column("", SCALED, lambda run, record: run.point.friction_number),
     "resolved_model": _recorded("model", "", "geometry that was solved; `model` is what was asked for"),
     "dx": _recorded("dx", "m", "cell size"),
     "status": _recorded("status", "", STATUS),

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from subslide import fields
-from subslide.fields import FRONT_LABELS
+from subslide import naming
+from subslide.naming import FRONT_LABELS
 from subslide.records import thinning
 from subslide.study.config import Study
 
@@ -27,7 +27,7 @@ QUANTITIES = {
     **{f"x_front_{t}": ("m", f"x_front at the {t[:-2]} % front") for t in FRONT_LABELS},
     **{
         name: ("" if field.unit == "1" else field.unit, field.long_name)
-        for name, field in fields.SERIES.items()
+        for name, field in naming.SERIES.items()
         if name != "x_front"
     },
 }
@@ -72,7 +72,7 @@ def table(results: "Results") -> Iterator[dict]:
 
 def samples(results: "Results") -> Iterator[tuple[str, np.ndarray, dict[str, np.ndarray]]]:
     """Give each run's id, times (s) and samples by quantity; quantities it lacks are left out."""
-    for run, record in results.each("time", *fields.SERIES):
+    for run, record in results.each("time", *naming.SERIES):
         values = {f"x_front_{label}": record["x_front"][n] for label, n in FRONT_LABELS.items()}
         values.update((name, record[name]) for name in QUANTITIES if name not in values)
         known = {name: entries for name, entries in values.items() if np.isfinite(entries).any()}

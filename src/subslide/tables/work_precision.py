@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from subslide.fields import FINISHED
-from subslide.keys import schema
+from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
+from subslide.naming import FINISHED
 from subslide.points import Point
 from subslide.study.config import Study
 from subslide.tables import _convergence as convergence
@@ -26,9 +26,9 @@ TIMES = 200
 PLACE = ("a_H", "a_2", "r", "delta", "radius")
 COLUMNS = {
     "id": ("", "name of the run"),
-    **{key: (schema.unit(key), schema.properties()[key]["description"]) for key in PLACE},
+    **{key: (words.unit(key), schema.properties()[key]["description"]) for key in PLACE},
     "quantity": ("", "what is compared, see above"),
-    **{key: (schema.unit(key), schema.properties()[key]["description"]) for key in METHOD},
+    **{key: (words.unit(key), schema.properties()[key]["description"]) for key in METHOD},
     "model": ("", "geometry that was solved"),
     "cells": ("", "cell size as a count; see config/README.md"),
     "method": (

@@ -1,19 +1,33 @@
 """Friction of the grains on the bed: Coulomb's law, which every cell obeys, and what other laws add to it.
 
-One law a file; to add one, name it in LAWS and give it a branch in `further`.
+One law a file. `scaled(point)` returns up to MOST scaled numbers of the law, which kernels get as `s.law_1` and so on;
+`remaining(s, dt, h2, speed)` returns the factor that the law's friction beyond Coulomb's at delta leaves of a velocity
+in the time dt. To add a law, write its file and name it in `keys.names.LAWS`; its keys are entries of `keys.entries`.
 """
 
-from subslide.kernels.friction.pouliquen import pouliquen
-from subslide.kernels.friction.voellmy import voellmy
-from subslide.kernels.jit import inlined
+from importlib import import_module
 
-LAWS = {"coulomb": 0, "voellmy": 1, "pouliquen": 2}
-COULOMB, VOELLMY, POULIQUEN = LAWS.values()
+from subslide.kernels.chain import chain
+from subslide.kernels.jit import inlined
+from subslide.keys.names import LAWS, flags
+
+MOST = 3
+"""Numbers that a law may have."""
+
+FLAGS = flags(LAWS)
+COULOMB = FLAGS["coulomb"]
+MODULES = {name: import_module(f"{__name__}.{name}") for name in LAWS}
+
+_remaining = chain({flag: MODULES[name].remaining for name, flag in FLAGS.items() if flag != COULOMB})
 
 
 @inlined
-def further(s, dt, h2, speed):
-    """Return the factor that the law's friction beyond Coulomb's leaves of a velocity in the time dt."""
-    if s.law == VOELLMY:
-        return voellmy(dt, s.turbulence, h2, speed)
-    return pouliquen(dt * (type(s.r)(1) - s.r) * s.friction_rise, s.depths, h2, speed)
+def remaining(s, dt, h2, speed):
+    """Return the factor that the chosen law's friction beyond Coulomb's leaves of a velocity in the time dt."""
+    return _remaining(s.law, s, dt, h2, speed)
+
+
+def numbers(point):
+    """Return the MOST scaled numbers of a point's friction law, 0 for those it does not have."""
+    given = MODULES[point.friction].scaled(point)
+    return (*given, *(0.0,) * (MOST - len(given)))

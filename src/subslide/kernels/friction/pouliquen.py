@@ -9,14 +9,18 @@ import math
 from subslide.kernels.jit import inlined
 
 
-@inlined
-def pouliquen(reach, depths, h2, speed):
-    """Return the factor that friction beyond Coulomb's at delta leaves of a velocity.
+def scaled(point):
+    """Return (tan(delta_2) - tan(delta)) / a_2, and H2 / l."""
+    rise = math.tan(math.radians(point.delta_2)) - math.tan(math.radians(point.delta))
+    return rise / point.a_2, point.column_height / point.pouliquen_length
 
-    `reach` is dt (1-r) (tan(delta_2) - tan(delta)) / a_2, and `depths` is H2 / l, in scaled variables.
-    """
+
+@inlined
+def remaining(s, dt, h2, speed):
+    """Return the factor that friction beyond Coulomb's at delta leaves of a velocity."""
     real = type(speed)
     if speed <= real(0):
         return real(1)
-    change = reach * math.exp(-depths * h2 * math.sqrt(h2) / speed)
+    reach = dt * (real(1) - s.r) * s.law_1
+    change = reach * math.exp(-s.law_2 * h2 * math.sqrt(h2) / speed)
     return max(real(0), real(1) - change / speed)

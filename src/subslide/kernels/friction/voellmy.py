@@ -6,13 +6,15 @@ The bed resists with the stress rho_s g |u|^2 / xi beside Coulomb's, so that d|u
 from subslide.kernels.jit import inlined
 
 
-@inlined
-def voellmy(dt, turbulence, h2, speed):
-    """Return the factor that turbulent friction leaves of a velocity: 1 / (1 + dt g |u| / (xi h2)), exact alone.
+def scaled(point):
+    """Return g / (xi a_2), the turbulence in scaled variables."""
+    return (point.turbulence,)
 
-    `turbulence` is g / (xi a_2) in scaled variables.
-    """
+
+@inlined
+def remaining(s, dt, h2, speed):
+    """Return the factor that turbulent friction leaves of a velocity: 1 / (1 + dt g |u| / (xi h2)), exact alone."""
     real = type(speed)
-    drag = dt * turbulence * speed
+    drag = dt * s.law_1 * speed
     total = h2 + drag
     return h2 / total if total > real(0) else real(1)

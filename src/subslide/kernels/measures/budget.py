@@ -1,7 +1,25 @@
-"""Volumes, energy and the cells that lost hyperbolicity: sums over a row."""
+"""Volumes and energy: sums over a row."""
 
-from subslide.kernels.jit import part, summed
-from subslide.kernels.waves import discriminant, discriminant_without_shear
+from subslide.kernels.jit import inlined, part, summed
+from subslide.kernels.measures._series import SUM, Series
+
+SERIES = {
+    "water_volume": Series(SUM, lambda column, si: column * si.volume, layers=2),
+    "sediment_volume": Series(SUM, lambda column, si: column * si.volume),
+    "energy": Series(SUM, lambda column, si: column * si.volume * si.height * si.g),
+}
+
+
+@inlined
+def measure(s, c, mesh, watch, span):
+    """Return the volumes of water and of grains, and the energy, of a row's cells; still ones count by their size."""
+    water, grains, energy = row_budget(
+        c.h1, c.u1, c.v1, c.h2, c.u2, c.v2, mesh.weight, s.r, span.low, span.high
+    )
+    rest = mesh.total[c.h1.shape[0]] - (mesh.total[span.high] - mesh.total[span.low])
+    h1, h2 = watch.still1, watch.still2
+    energy_at_rest = 0.5 * (s.r * h1 * h1 + h2 * h2) + s.r * h1 * h2
+    return water + rest * h1, grains + rest * h2, energy + rest * energy_at_rest
 
 
 @summed
@@ -23,32 +41,3 @@ def row_budget(h1, u1, v1, h2, u2, v2, weight, r, start, stop):
         double2 = h2[i] * (u2[i] * u2[i] + v2[i] * v2[i] + h2[i])
         energy += weight[i] * (0.5 * (r * double1 + double2) + r * h1[i] * h2[i])
     return water, grains, energy
-
-
-@summed
-def row_hyperbolicity(h1, u1, v1, h2, u2, v2, ratio, r, dry_depth, margin, start, stop):
-    """Return how many of a row's cells start..stop-1 have complex speeds along their shear, and the smallest margin.
-
-    Cells that are wet in both layers count. The margin of a cell is its discriminant over that without shear, each
-    scaled to depths and shear of order 1: 1 without shear, 0 where two speeds meet, negative where they are complex.
-    `ratio` is scratch, as long as the row: a loop that finds a minimum does not vectorise, so it gets one of its own.
-    """
-    one = type(r)(1)
-    zero = type(r)(0)
-    lost = 0.0
-    first, count = part(start, stop)
-    for k in range(count):
-        i = k + first
-        du = u1[i] - u2[i]
-        dv = v1[i] - v2[i]
-        wet = min(h1[i], h2[i]) > dry_depth
-        sheared = discriminant(h1[i], h2[i], du * du + dv * dv, r)
-        still = discriminant_without_shear(h1[i], h2[i], r)
-        judged = (still if wet else zero) > margin
-        found = sheared / (still if judged else one)
-        ratio[i] = found if judged else one
-        lost += 1.0 if (sheared if wet else one) < -margin else 0.0
-    smallest = one
-    for k in range(count):
-        smallest = min(smallest, ratio[k + first])
-    return lost, smallest

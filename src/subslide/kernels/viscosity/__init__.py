@@ -1,28 +1,55 @@
 """Riemann solvers as polynomials of the Roe matrix (PVM methods, Castro and Fernandez-Nieto 2012).
 
-Q = alpha0 Id + alpha1 A + alpha2 A^2 (Eq. 9), so a solver is a function from wave speeds to three numbers. One file
-each; to add one, name it in SCHEMES and give it a branch in `coefficients`. Roe's polynomial has a fourth
-(see `roe`).
+Q = alpha0 Id + alpha1 A + alpha2 A^2 (Eq. 9), so a solver is a function from wave speeds to three numbers, in a file
+of its own: `alpha(waves, dry)` returns (alpha0, alpha1, alpha2) for the speeds `waves.Waves` of an edge, `dry` where a
+layer is dry on either side. A solver whose polynomial has a fourth coefficient has `cubic(waves)` as well, which
+returns alpha0..3 and rules where no side is dry. To add one, write its file and name it in `keys.names.SCHEMES`.
 """
 
-from subslide.kernels.jit import inlined
-from subslide.kernels.viscosity.hll import hll
-from subslide.kernels.viscosity.ifcp import ifcp
-from subslide.kernels.viscosity.rusanov import rusanov
+from importlib import import_module
 
-SCHEMES = {"rusanov": 0, "hll": 1, "ifcp": 2, "ifcph": 3, "roe": 4}
-RUSANOV, HLL, IFCP, IFCPH, ROE = SCHEMES.values()
+from subslide.kernels.arrays import is_general
+from subslide.kernels.chain import chain
+from subslide.kernels.jit import inlined
+from subslide.kernels.viscosity.hll import alpha as hll  # noqa: F401 - for edges whose speeds are complex
+from subslide.kernels.viscosity.hll import line
+from subslide.kernels.viscosity.rusanov import largest
+from subslide.keys.names import LEAN, SCHEMES, flags
+
+FLAGS = flags(SCHEMES)
+RUSANOV, IFCP = FLAGS["rusanov"], FLAGS["ifcp"]
+MODULES = {name: import_module(f"{__name__}.{name}") for name in SCHEMES}
+
+CUBIC = tuple(FLAGS[name] for name, module in MODULES.items() if hasattr(module, "cubic"))
+
+_alpha = chain({FLAGS[name]: module.alpha for name, module in MODULES.items()})
+_lean_alpha = chain({FLAGS[name]: MODULES[name].alpha for name, known in SCHEMES.items() if known is LEAN})
+cubic = chain({flag: MODULES[name].cubic for name, flag in FLAGS.items() if flag in CUBIC})
+"""Function of (scheme, waves) that returns alpha0..3 of a solver that has them."""
 
 
 @inlined
-def coefficients(scheme, s_l, s_int, s_r, dry):
-    """Return alpha0, alpha1, alpha2 of the chosen solver; IFCPH is HLL where a layer is dry, IFCP elsewhere."""
+def alpha(s, waves, dry):
+    """Return alpha0..2 of the chosen solver."""
+    if is_general(s):
+        return _alpha(s.scheme, waves, dry)
+    return _lean_alpha(s.scheme, waves, dry)
+
+
+@inlined
+def is_cubic(scheme):
+    """Return whether a solver's polynomial has a fourth coefficient."""
+    return scheme in CUBIC
+
+
+@inlined
+def two_wave(scheme, s_l, s_r):
+    """Return alpha0 and alpha1 for a layer alone, whose two waves leave nothing in between: HLL, or Rusanov."""
     if scheme == RUSANOV:
-        return rusanov(s_l, s_r)
-    if scheme == HLL:
-        return hll(s_l, s_r)
-    a0, a1, a2 = ifcp(s_l, s_int, s_r)
-    if scheme == IFCP:
-        return a0, a1, a2
-    b0, b1, b2 = hll(s_l, s_r)
-    return (b0 if dry else a0), (b1 if dry else a1), (b2 if dry else a2)
+        return largest(s_l, s_r), type(s_l)(0)
+    return line(s_l, s_r)
+
+
+def takes_exact_front(name):
+    """Return whether a solver lets grains run onto a dry bed with the exact flux of a front, by its EXACT_FRONT."""
+    return getattr(MODULES[name], "EXACT_FRONT", False)

@@ -4,12 +4,13 @@ from subslide.kernels.jit import inlined
 
 
 @inlined
-def ifcp(s_l, s_int, s_r):
-    """Return alpha0..2 of the parabola through |S| at S_L, S_int and S_R (Eq. 10).
+def alpha(waves, dry):
+    """Return alpha0..2 of the parabola through |S| at S_L, S_int and S_R (Eq. 10), whether a layer is dry or not.
 
     Written without the differences of Eq. (10) that vanish when S_int meets the outer speed on its own side; S_int
     has the sign of the larger outer speed (Eq. 12), so what remains in the denominators is never small.
     """
+    s_l, s_int, s_r = waves.s_l, waves.s_int, waves.s_r
     real = type(s_l)
     zero = real(0)
     one = real(1)

@@ -1,33 +1,28 @@
-"""Roe's solver: Q = |A|, the polynomial of degree three through |S| at the four wave speeds of A."""
+"""Roe's solver: Q = |A|, the polynomial of degree three through |S| at the four wave speeds of A; HLL at dry edges."""
 
 import math
 
 from subslide.kernels.jit import inlined
+from subslide.kernels.viscosity.hll import alpha  # noqa: F401 - where a layer is dry
+
+EXACT_FRONT = True
+"""Grains run onto a dry bed with the exact flux of grains alone, if `front_flux` is exact."""
 
 
 @inlined
-def roe_viscosity(a, slow, fast, centre, half_width_squared, slowest, fastest, jumps):
-    """Return |A| d. `a` is (u1, h1 - u1^2, h1, u2, h2 - u2^2, r h2); `jumps` are d, A d and A^2 d without repeats.
+def cubic(waves):
+    """Return alpha0..3 of |A|.
 
     The outer speeds of a fan that opens are raised by its half-width (Harten and Hyman 1983), or a transonic one would
     stay a jump.
     """
-    u1, k1, h1, u2, k2, rh2 = a
-    e1, d_q1, e3, d_q2, b2, b4, c2, c4 = jumps
-    w = math.sqrt(max(half_width_squared, type(u1)(0)))
-    at_slow = max(abs(slow), slow - slowest)
-    at_fast = max(abs(fast), fastest - fast)
-    low = max(slow, min(fast, centre - w))
-    high = max(slow, min(fast, centre + w))
-    a0, a1, a2, a3 = roe(slow, low, high, fast, at_slow, at_fast)
-    g2 = k1 * b2 + (u1 + u1) * c2 + h1 * b4
-    g4 = rh2 * b2 + k2 * b4 + (u2 + u2) * c4
-    return (
-        a0 * e1 + a1 * d_q1 + a2 * b2 + a3 * c2,
-        a0 * d_q1 + a1 * b2 + a2 * c2 + a3 * g2,
-        a0 * e3 + a1 * d_q2 + a2 * b4 + a3 * c4,
-        a0 * d_q2 + a1 * b4 + a2 * c4 + a3 * g4,
-    )
+    slow, fast = waves.slow, waves.fast
+    w = math.sqrt(max(waves.half_width_squared, type(slow)(0)))
+    at_slow = max(abs(slow), slow - waves.slowest)
+    at_fast = max(abs(fast), waves.fastest - fast)
+    low = max(slow, min(fast, waves.centre - w))
+    high = max(slow, min(fast, waves.centre + w))
+    return roe(slow, low, high, fast, at_slow, at_fast)
 
 
 @inlined

@@ -4,7 +4,13 @@ from subslide.kernels.jit import inlined
 
 
 @inlined
-def rusanov(s_l, s_r):
+def largest(s_l, s_r):
+    """Return max(|S_L|, |S_R|)."""
+    return max(abs(s_l), abs(s_r))
+
+
+@inlined
+def alpha(waves, dry):
     """Return alpha0..2 of p(x) = max(|S_L|, |S_R|)."""
-    real = type(s_l)
-    return max(abs(s_l), abs(s_r)), real(0), real(0)
+    zero = type(waves.s_l)(0)
+    return largest(waves.s_l, waves.s_r), zero, zero

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from subslide.fields import FRONT_LABELS
+from subslide.naming import FRONT_LABELS
 from subslide.points import RUN_KEYS, paper_times
 
 THRESHOLDS = tuple(FRONT_LABELS)

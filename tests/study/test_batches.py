@@ -4,11 +4,10 @@ import json
 
 import pytest
 
-from subslide import jobs
+from subslide.files import file_hash
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
-from subslide.study import batches as ledger
-from subslide.study import config
+from subslide.study import batches, choice, config
 
 
 def study(**axes):
@@ -16,43 +15,43 @@ def study(**axes):
 
 
 def test_points_keep_their_batch_when_the_study_changes(tmp_path):
-    first = ledger.plan(study(a_H=[1, 2]), tmp_path, extend=True)
-    owner = ledger.read(tmp_path)[0]
-    wider = ledger.plan(study(a_H=[0.5, 2, 1]), tmp_path, extend=True)
+    first = batches.plan(study(a_H=[1, 2]), tmp_path, extend=True)
+    owner = batches.read(tmp_path)[0]
+    wider = batches.plan(study(a_H=[0.5, 2, 1]), tmp_path, extend=True)
     assert set(first.batches) < set(wider.batches)
-    assert owner.items() <= ledger.read(tmp_path)[0].items()
-    narrower = ledger.plan(study(a_H=[0.5]), tmp_path, extend=True)
+    assert owner.items() <= batches.read(tmp_path)[0].items()
+    narrower = batches.plan(study(a_H=[0.5]), tmp_path, extend=True)
     assert set(narrower.batches) == set(wider.batches) - set(first.batches)
-    assert ledger.plan(study(a_H=[2, 1]), tmp_path, extend=True) == first
+    assert batches.plan(study(a_H=[2, 1]), tmp_path, extend=True) == first
 
 
 def test_one_more_value_makes_one_more_batch(tmp_path):
     values = [n / 10 for n in range(1, 11)]
     grid = {"a_2": values, "r": [n / 20 for n in range(10)]}
-    ledger.plan(study(a_H=values, **grid), tmp_path, extend=True)
+    batches.plan(study(a_H=values, **grid), tmp_path, extend=True)
     before = {path: path.read_bytes() for path in (tmp_path / "batches").iterdir()}
-    ledger.plan(study(a_H=[*values, 7], **grid), tmp_path, extend=True)
+    batches.plan(study(a_H=[*values, 7], **grid), tmp_path, extend=True)
     after = {path: path.read_bytes() for path in (tmp_path / "batches").iterdir()}
     assert before.items() <= after.items()
     assert len(after) == len(before) + 1
 
 
 def test_points_file_states_runs_in_order_and_is_left_alone_if_equal(tmp_path):
-    ledger.plan(study(a_H=[2, 1]), tmp_path, extend=True)
+    batches.plan(study(a_H=[2, 1]), tmp_path, extend=True)
     path = tmp_path / "points.json"
     written = path.stat().st_mtime_ns
     assert [row["a_H"] for row in json.loads(path.read_text())["points"]] == [2, 1]
-    ledger.plan(study(a_H=[2, 1]), tmp_path, extend=True)
+    batches.plan(study(a_H=[2, 1]), tmp_path, extend=True)
     assert path.stat().st_mtime_ns == written
 
 
 def test_companions_are_planned_and_listed_apart(tmp_path):
     axes = {"a_H": [1, 2], "cells": [80, 40]}
-    without = ledger.plan(study(**axes), tmp_path, extend=True)
+    without = batches.plan(study(**axes), tmp_path, extend=True)
     plain = json.loads((tmp_path / "points.json").read_text())
-    with_bands = ledger.plan(study(bands=True, **axes), tmp_path, extend=True)
+    with_bands = batches.plan(study(bands=True, **axes), tmp_path, extend=True)
     new = set(with_bands.batches) - set(without.batches)
-    added = [p for name in sorted(new) for p in jobs.read_batch(tmp_path / "batches" / f"{name}.json")]
+    added = [p for name in sorted(new) for p in batches.read_batch(tmp_path / "batches" / f"{name}.json")]
     assert sorted((p.a_H, p.cells) for p in added) == [(a_H, cells) for a_H in (1, 2) for cells in (10, 20)]
     index = json.loads((tmp_path / "points.json").read_text())
     assert index["points"] == plain["points"]
@@ -64,79 +63,79 @@ def test_companions_are_planned_and_listed_apart(tmp_path):
         (40, "cells/2", 20),
         (40, "cells/4", 10),
     ] * 2
-    assert ledger.plan(study(**axes), tmp_path, extend=True) == without
+    assert batches.plan(study(**axes), tmp_path, extend=True) == without
     assert json.loads((tmp_path / "points.json").read_text()) == plain
 
 
 def test_the_papers_study_is_balanced(root):
     solved = config.read_study(root / "config/paper.yaml").solved
-    batches = ledger.split(list(solved))
-    costs = [sum(map(ledger.cost, batch)) for batch in batches]
-    assert max(costs) < 1.1 * max(ledger.SECONDS[0], sum(costs) / ledger.PARTS)
+    parts = batches.split(list(solved))
+    costs = [sum(map(batches.cost, batch)) for batch in parts]
+    assert max(costs) < 1.1 * max(batches.SECONDS[0], sum(costs) / batches.PARTS)
     for cells in (3200, 200):  # what costs most is spread
-        shares = [c for c, b in zip(costs, batches, strict=True) if b[0].cells == cells]
+        shares = [c for c, b in zip(costs, parts, strict=True) if b[0].cells == cells]
         assert len(shares) > 1
         assert max(shares) < 1.3 * min(shares)
 
 
 def test_the_round_column_is_cheap_where_the_model_is_left_open():
-    costs = {m: ledger.cost(Point(model=m, cells=800)) for m in ("auto", "radial", "quarter", "plane")}
+    costs = {m: batches.cost(Point(model=m, cells=800)) for m in ("auto", "radial", "quarter", "plane")}
     assert costs["auto"] == costs["radial"] < costs["quarter"] / 100 < costs["plane"] / 100
 
 
 def test_a_job_reads_the_ledger_and_never_extends_it(tmp_path):
-    with pytest.raises(ledger.LedgerError, match="main process"):
-        ledger.plan(study(a_H=[1]), tmp_path, extend=False)
+    with pytest.raises(batches.LedgerError, match="main process"):
+        batches.plan(study(a_H=[1]), tmp_path, extend=False)
     assert list(tmp_path.iterdir()) == []
-    planned = ledger.plan(study(a_H=[1]), tmp_path, extend=True)
-    assert ledger.plan(study(a_H=[1]), tmp_path, extend=False) == planned
+    planned = batches.plan(study(a_H=[1]), tmp_path, extend=True)
+    assert batches.plan(study(a_H=[1]), tmp_path, extend=False) == planned
 
 
 def test_two_planners_at_once_lose_nothing(tmp_path, monkeypatch):
     """The second one finds its number taken, reads again and goes on with what is left."""
-    link, raced = ledger.os.link, []
+    link, raced = batches.os.link, []
 
     def slow_link(source, target):
         if not raced:
             raced.append(1)
-            ledger.plan(study(a_H=[1, 3]), tmp_path, extend=True)
+            batches.plan(study(a_H=[1, 3]), tmp_path, extend=True)
         link(source, target)
 
-    monkeypatch.setattr(ledger.os, "link", slow_link)
-    ledger.plan(study(a_H=[1, 2]), tmp_path, extend=True)
-    owner = ledger.read(tmp_path)[0]
+    monkeypatch.setattr(batches.os, "link", slow_link)
+    batches.plan(study(a_H=[1, 2]), tmp_path, extend=True)
+    owner = batches.read(tmp_path)[0]
     assert {p.id for p in study(a_H=[1, 2, 3]).points} == set(owner)
     assert not [path for path in (tmp_path / "batches").iterdir() if path.suffix == ".tmp"]
 
 
 def test_an_unreadable_batch_file_counts_as_empty(tmp_path):
-    first = ledger.plan(study(a_H=[1]), tmp_path, extend=True)
+    first = batches.plan(study(a_H=[1]), tmp_path, extend=True)
     (tmp_path / "batches" / f"{next(iter(first.batches))}.json").write_text("{")
-    assert ledger.plan(study(a_H=[1]), tmp_path, extend=True).batches != first.batches
+    assert batches.plan(study(a_H=[1]), tmp_path, extend=True).batches != first.batches
 
 
 def test_batches_share_a_cell_size_and_kind_and_are_balanced():
     points = [
         Point(model=m, cells=c, r=n / 20) for m in ("radial", "plane") for c in (100, 200) for n in range(8)
     ]
-    batches = ledger.split(points)
-    assert sorted(p.id for batch in batches for p in batch) == sorted(p.id for p in points)
-    for batch in batches:
-        assert len({(p.dx, ledger.kernels_of(p)) for p in batch}) == 1
-    heavy = [sum(map(ledger.cost, b)) for b in batches if (b[0].model, b[0].cells) == ("plane", 200)]
+    parts = batches.split(points)
+    assert sorted(p.id for batch in parts for p in batch) == sorted(p.id for p in points)
+    for batch in parts:
+        assert len({(p.dx, choice.kernels(p)) for p in batch}) == 1
+    heavy = [sum(map(batches.cost, b)) for b in parts if (b[0].model, b[0].cells) == ("plane", 200)]
     assert len(heavy) > 1
     assert max(heavy) <= 2 * min(heavy)
 
 
 def test_no_batch_is_larger_than_its_limit():
-    batches = ledger.split([Point(model="radial", cells=20, r=n / 2000) for n in range(1000)])
-    assert max(map(len, batches)) <= ledger.MOST_POINTS
+    parts = batches.split([Point(model="radial", cells=20, r=n / 2000) for n in range(1000)])
+    assert max(map(len, parts)) <= batches.MOST_POINTS
 
 
 def test_batch_files_hold_whole_points(tmp_path):
     points = study(a_H=[1, 2], t_end=["rest", 0.5]).points
-    plan = ledger.plan(study(a_H=[1, 2], t_end=["rest", 0.5]), tmp_path, extend=True)
-    read = [p for name in plan.batches for p in jobs.read_batch(tmp_path / "batches" / f"{name}.json")]
+    plan = batches.plan(study(a_H=[1, 2], t_end=["rest", 0.5]), tmp_path, extend=True)
+    read = [p for name in plan.batches for p in batches.read_batch(tmp_path / "batches" / f"{name}.json")]
     assert sorted(read, key=lambda p: p.id) == sorted(points, key=lambda p: p.id)
 
 
@@ -146,14 +145,14 @@ def test_batch_files_hold_whole_points(tmp_path):
 def test_a_batch_file_that_was_edited_is_refused(tmp_path, text):
     (tmp_path / "b.json").write_text(text)
     with pytest.raises(ConfigError, match="b.json"):
-        jobs.read_batch(tmp_path / "b.json")
+        batches.read_batch(tmp_path / "b.json")
 
 
 def test_damaged_records_are_found(tmp_path):
     (tmp_path / "records").mkdir()
     record = tmp_path / "records/0001.nc"
     record.write_bytes(b"abc")
-    (tmp_path / "records/0001.nc.sha256").write_text(f"{jobs.file_hash(record)}  0001.nc\n")
-    assert ledger.damaged(tmp_path, ("0001", "0002")) == []
+    (tmp_path / "records/0001.nc.sha256").write_text(f"{file_hash(record)}  0001.nc\n")
+    assert batches.damaged(tmp_path, ("0001", "0002")) == []
     record.write_bytes(b"abd")
-    assert ledger.damaged(tmp_path, ("0001", "0002")) == [record]
+    assert batches.damaged(tmp_path, ("0001", "0002")) == [record]

@@ -9,12 +9,11 @@ from subslide import exact
 from subslide.__main__ import main
 from subslide.points import Point
 from subslide.solver import solve
-from subslide.study import cautions as guard
-from subslide.study import config
+from subslide.study import cautions, config
 from subslide.tables import _energy as energy
 from subslide.tables.atlas import GAINED
 
-REGIONS = {region.name: region for region in guard.REGIONS}
+REGIONS = {region.name: region for region in cautions.REGIONS}
 
 
 def gain(run):
@@ -81,29 +80,29 @@ def test_grains_with_little_friction_leave_the_largest_box():
 
 def test_every_region_is_tested_and_says_what_to_choose():
     assert set(HARM) == set(REGIONS)
-    for region in guard.REGIONS:
+    for region in cautions.REGIONS:
         (line,) = [
-            text for text in guard.cautions([config.make_point(region.example)]) if region.name in text
+            text for text in cautions.cautions([config.make_point(region.example)]) if region.name in text
         ]
         assert region.reason in line
         assert f"Choose {region.advice}" in line
 
 
 def test_every_region_was_seen_in_a_study(root):
-    for region in guard.REGIONS:
+    for region in cautions.REGIONS:
         study = config.read_study(root / "config" / f"{region.seen.split(',')[0]}.yaml")
         assert any(map(region.holds, study.points)), region.name
 
 
 def test_the_default_and_the_papers_range_are_in_no_region():
-    assert guard.cautions([Point()]) == []
+    assert cautions.cautions([Point()]) == []
     for a_H, r, order in itertools.product((0.5, 1, 10), (0, 0.4, 0.8), (1, 2)):
-        assert guard.regions_of(Point(a_H=a_H, r=r, order=order)) == []
+        assert cautions.regions_of(Point(a_H=a_H, r=r, order=order)) == []
 
 
 def test_a_study_says_it_once_for_each_region():
     points = [Point(cfl=cfl, delta=0.0) for cfl in (0.5, 1.5, 2.0)]
-    lines = guard.cautions(points)
+    lines = cautions.cautions(points)
     assert len(lines) == 2
     assert "(2 of 3 runs)" in lines[0]
     assert "(3 of 3 runs)" in lines[1]

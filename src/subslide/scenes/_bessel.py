@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 
-def bessel(n, x):
+def bessel(n: int, x: float | np.ndarray) -> np.ndarray:
     """Return J_n(x) for |x| <= 1000, n = 0 or 1: the mean over a turn of cos(n t - x sin t), to round-off."""
     x = np.asarray(x, float)
     points = 64 + 2 * int(np.max(np.abs(x), initial=0.0))
@@ -15,7 +15,7 @@ def bessel(n, x):
     return total / points
 
 
-def zero_of_j1(n):
+def zero_of_j1(n: int) -> float:
     """Return the n-th positive zero of J1, where J0 has slope 0: Newton's method from McMahon's estimate."""
     x = (n + 0.25) * math.pi
     for _ in range(8):

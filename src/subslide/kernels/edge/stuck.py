@@ -1,0 +1,20 @@
+"""Edges at which friction holds the grains of both sides at rest: what the viscosity sees there."""
+
+from subslide.kernels.arrays import is_general
+from subslide.kernels.friction.coulomb import holds
+from subslide.kernels.jit import inlined
+
+
+@inlined
+def sees_friction(s):
+    """Return whether the viscosity sees what friction holds; without it piles at rest creep."""
+    return not is_general(s) or s.viscous_friction != 0
+
+
+@inlined
+def is_stuck(s, dt, square_i, square_j, push_squared):
+    """Return 1 if friction holds the grains on both sides of an edge, else 0; see `friction.coulomb.holds`."""
+    real = type(s.r)
+    static = (real(1) - s.r) * s.m
+    held = holds(dt * static, s.dx * static, max(square_i, square_j), push_squared)
+    return real(1) if held else real(0)

@@ -1,0 +1,98 @@
+"""Fluxes through the edges of a row, in either geometry.
+
+`before` and `after` are the states (`Side`) whose entries k + shift and k + shift + step are beside edge k: on a line,
+a radius or along x the right and left faces of one row's cells (shift BEFORE, step 1); along y the upper faces of the
+row below and the lower ones of the row above (shift GHOSTS, step 0). `slow` and `fast` are pairs of rows, before and
+after likewise, with the bounds of each cell's wave speeds along the normal.
+"""
+
+from subslide.kernels.edge.grains import grain_edge_fluxes
+from subslide.kernels.edge.roe_matrix import Normal
+from subslide.kernels.edge.two_layers import edge_fluxes
+from subslide.kernels.edge.water import water_edge_fluxes
+from subslide.kernels.jit import inlined, part, unsigned
+from subslide.kernels.positivity import donor
+from subslide.kernels.printed import carried
+
+
+@inlined
+def edges(s, f, slow, fast, before, after, shift, step, start, stop):
+    """Fill the fluxes of mass and normal momentum through the edges start..stop-1 of a row."""
+    zero = type(s.r)(0)
+    slow_i, slow_j = slow
+    fast_i, fast_j = fast
+    first, count = part(start, stop)
+    for m in range(count):
+        k = unsigned(m + first)
+        i = unsigned(m + first + shift)
+        j = unsigned(m + first + shift + step)
+        f.f1[k], f.m1[k], f.p1[k], f.f2[k], f.m2[k], f.p2[k] = edge_fluxes(
+            s,
+            f.stuck[k] != zero,
+            min(slow_i[i], slow_j[j]),
+            max(fast_i[i], fast_j[j]),
+            Normal(before.h1[i], before.u1[i], before.h2[i], before.u2[i]),
+            Normal(after.h1[j], after.u1[j], after.h2[j], after.u2[j]),
+            after.eta[j] - before.eta[i],
+        )
+
+
+@inlined
+def water_edges(s, f, slow, fast, before, after, shift, step, start, stop):
+    """Fill the water's fluxes through the edges start..stop-1 of a row where no side has grains."""
+    slow_i, slow_j = slow
+    fast_i, fast_j = fast
+    first, count = part(start, stop)
+    for m in range(count):
+        k = unsigned(m + first)
+        i = unsigned(m + first + shift)
+        j = unsigned(m + first + shift + step)
+        f.f1[k], f.m1[k], f.p1[k] = water_edge_fluxes(
+            s,
+            min(slow_i[i], slow_j[j]),
+            max(fast_i[i], fast_j[j]),
+            before.h1[i],
+            before.u1[i],
+            after.h1[j],
+            after.u1[j],
+            after.eta[j] - before.eta[i],
+        )
+
+
+@inlined
+def grain_edges(s, f, before, after, shift, start, stop):
+    """Fill the fluxes through the edges start..stop-1 of a row of grains alone."""
+    zero = type(s.r)(0)
+    first, count = part(start, stop)
+    for m in range(count):
+        k = m + first
+        i = k + shift
+        j = i + 1
+        f.f2[k], f.m2[k], f.p2[k] = grain_edge_fluxes(
+            s, f.stuck[k] != zero, before.h2[i], before.u2[i], after.h2[j], after.u2[j]
+        )
+
+
+@inlined
+def tangential(s, f, before, after, shift, step, start, stop):
+    """Fill the fluxes of tangential momentum of both layers: their mass fluxes times the velocity these carry."""
+    first, count = part(start, stop)
+    for m in range(count):
+        k = unsigned(m + first)
+        i = unsigned(m + first + shift)
+        j = unsigned(m + first + shift + step)
+        f1, f2 = f.f1[k], f.f2[k]
+        f.t1[k] = f1 * carried(s, f1, after.h1[j], before.v1[i], after.h1[j], after.v1[j])
+        f.t2[k] = f2 * carried(s, f2, before.h2[i], before.v2[i], after.h2[j], after.v2[j])
+
+
+@inlined
+def water_tangential(f, before, after, shift, step, start, stop):
+    """Fill those of the water where no side has grains."""
+    first, count = part(start, stop)
+    for m in range(count):
+        k = unsigned(m + first)
+        i = unsigned(m + first + shift)
+        j = unsigned(m + first + shift + step)
+        f1 = f.f1[k]
+        f.t1[k] = f1 * donor(f1, before.v1[i], after.v1[j])

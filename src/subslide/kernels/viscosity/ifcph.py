@@ -1,0 +1,16 @@
+"""IFCPH, the paper's solver: IFCP, and HLL where a layer is dry on either side of the edge."""
+
+from subslide.kernels.jit import inlined
+from subslide.kernels.viscosity.hll import alpha as hll
+from subslide.kernels.viscosity.ifcp import alpha as ifcp
+
+EXACT_FRONT = True
+"""Grains run onto a dry bed with the exact flux of grains alone, if `front_flux` is exact."""
+
+
+@inlined
+def alpha(waves, dry):
+    """Return alpha0..2: Eq. (10), or those of HLL below Eq. (12) at wet/dry edges."""
+    a0, a1, a2 = ifcp(waves, dry)
+    b0, b1, b2 = hll(waves, dry)
+    return (b0 if dry else a0), (b1 if dry else a1), (b2 if dry else a2)

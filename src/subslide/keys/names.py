@@ -1,0 +1,47 @@
+"""Names that choose a part of the model or of its numerics, each declared once, and whether lean kernels know it.
+
+The lean kernels leave out what is rarely asked for, for speed; a run that chooses a ``GENERAL`` name has the general
+ones. Kernels know a name as an integer, its place in its mapping (`flags`): a new name goes to the end.
+"""
+
+LEAN, GENERAL = True, False
+
+SCHEMES = {"rusanov": LEAN, "hll": LEAN, "ifcp": LEAN, "ifcph": LEAN, "roe": GENERAL}
+"""Riemann solvers, the plainest first."""
+
+LAWS = {"coulomb": LEAN, "voellmy": GENERAL, "pouliquen": GENERAL}
+"""Friction laws of the grains."""
+
+TREATMENTS = {"real": LEAN, "hll": GENERAL, "friction": GENERAL, "stop": GENERAL}
+"""What is done where wave speeds are complex."""
+
+FRONT_FLUXES = {"exact": LEAN, "hll": LEAN}
+"""Fluxes of grains onto a dry bed."""
+
+SPEEDS = {"exact": LEAN, "approximate": GENERAL}
+"""Wave speeds of the Riemann solver."""
+
+AS_PRINTED = {"none": LEAN, "friction": GENERAL, "upwinding": GENERAL}
+"""Formulas of the paper that are taken literally."""
+
+BOUNDARIES = {"open": LEAN, "wall": LEAN, "periodic": LEAN}
+"""Edges of the box."""
+
+MODELS = {"one-layer": LEAN, "radial": LEAN, "line": LEAN, "quarter": LEAN, "plane": LEAN}
+"""Geometries that are solved, the cheapest first."""
+
+
+def flags(mapping: dict[str, bool]) -> dict[str, int]:
+    """Return the integer by which kernels know each name of a mapping of this module."""
+    return {name: place for place, name in enumerate(mapping)}
+
+
+def lean(mapping: dict[str, bool]) -> tuple[str, ...]:
+    """Return the names of a mapping of this module that the lean kernels know, in order."""
+    return tuple(name for name, kind in mapping.items() if kind is LEAN)
+
+
+def best_first(mapping: dict[str, bool]) -> tuple[str, ...]:
+    """Return the names of a mapping whose best comes last, the best of the lean ones first, then the general ones."""
+    general = (name for name, kind in mapping.items() if kind is GENERAL)
+    return (*reversed(lean(mapping)), *general)

@@ -1,0 +1,104 @@
+"""The naming table: every quantity of a record, its symbol, dimensions, unit and meaning.
+
+Records, tables, figures and documentation take names and units from here and from nowhere else; those of the keys of a
+run stand in `subslide.keys.entries`.
+"""
+
+from typing import NamedTuple
+
+FRONT_THRESHOLDS = (0.01, 0.03, 0.05)
+"""Depths that define the front, as fractions of the column's height H2; the first is the default."""
+
+
+class Name(NamedTuple):
+    """One quantity: symbol in text, NetCDF dimensions, unit (UDUNITS) and long name."""
+
+    symbol: str
+    dims: tuple[str, ...]
+    unit: str
+    long_name: str
+
+
+STEP = ("run", "step")
+PROFILE = ("run", "snapshot", "x")
+
+SERIES = {
+    "x_front": Name(
+        "x_front",
+        ("run", "front_threshold", "step"),
+        "m",
+        "distance from the axis to the farthest point on the x axis where h2 exceeds the threshold",
+    ),
+    "max_abs_eta": Name("max|η|", STEP, "m", "largest displacement of the water surface in the initial box"),
+    "max_abs_eta_outside": Name(
+        "max|η| (x > R)", STEP, "m", "largest displacement of the water surface beyond R in the initial box"
+    ),
+    "sediment_volume": Name("V2", STEP, "m3", "volume of grains in the box"),
+    "water_volume": Name("V1", STEP, "m3", "volume of water in the box"),
+    "energy": Name(
+        "E", STEP, "m5 s-2", "mechanical energy in the box over the density of grains, relative to the bed"
+    ),
+    "nonhyperbolic_cells": Name("n_c", STEP, "1", "cells where the two layers' wave speeds are complex"),
+    "hyperbolic_margin": Name(
+        "m_c",
+        STEP,
+        "1",
+        "smallest discriminant of the wave speeds over that without shear: 1 at rest, below 0 where they are complex",
+    ),
+}
+
+PROFILES = {
+    "h2": Name("h2", PROFILE, "m", "depth of grains along the x axis"),
+    "eta": Name("η", PROFILE, "m", "displacement of the water surface along the x axis"),
+    "h2_diagonal": Name("h2", PROFILE, "m", "depth of grains along the diagonal, at distance sqrt(2) x"),
+}
+
+FIELDS_2D = {
+    "h2_field": Name("h2", ("run", "snapshot", "y", "x"), "m", "depth of grains"),
+    "eta_field": Name("η", ("run", "snapshot", "y", "x"), "m", "displacement of the water surface"),
+}
+
+SCALARS = {
+    "L_f": Name(
+        "L_f",
+        ("run", "front_threshold"),
+        "m",
+        "length of the deposit along the x axis at the end of the run",
+    ),
+    "time_at_rest": Name(
+        "t_rest",
+        ("run",),
+        "s",
+        "time since which no grain has moved (late waves may nudge a few)",
+    ),
+    "box_half_width": Name("L", ("run",), "m", "half-width of the computational box"),
+    "steps": Name("n", ("run",), "1", "number of time steps"),
+    "wall_seconds": Name("", ("run",), "s", "wall time of the time loop alone"),
+}
+
+COORDINATES = {
+    "front_threshold": Name("", ("front_threshold",), "1", "depth that defines the front over H2"),
+    "x": Name("x", ("x",), "m", "distance of cell centre from the axis of the column along x"),
+    "y": Name("y", ("y",), "m", "distance of cell centre from the axis of the column along y"),
+    "time": Name("t", STEP, "s", "elapsed time since release"),
+    "snapshot_time": Name("t", ("run", "snapshot"), "s", "elapsed time of the profile"),
+}
+
+NAMES = {**SERIES, **PROFILES, **FIELDS_2D, **SCALARS, **COORDINATES}
+"""Every quantity of a record by name, but for the keys of its runs, which `subslide.keys` describes."""
+
+FRONT_LABELS = {f"{100 * fraction:g}pc": n for n, fraction in enumerate(FRONT_THRESHOLDS)}
+"""Place of each threshold of the front by its label in the names of columns, such as `L_f_1pc`."""
+
+STATUSES = {
+    "ok": "the run reached its end",
+    "not_at_rest": "the cap in scaled time came before the grains were at rest",
+    "left_domain": "the front reached the edge of the largest box",
+    "diverged": "a value is not finite",
+    "negative_depth": "a depth fell below zero by more than round-off",
+    "step_collapse": "the stable time step became too small to finish",
+    "hyperbolicity_lost": "wave speeds became complex and the treatment is to stop",
+}
+
+FINISHED = ("ok", "not_at_rest")
+"""Statuses of runs whose last profile and front mean something."""
