@@ -70,12 +70,13 @@ def main() -> int:
     if arguments.old is None:
         parser.error("the folder of another checkout is needed")
     from subslide.points import to_dict
-    from subslide.study.config import read_study, solved_model
+    from subslide.study import choice
+    from subslide.study.config import read_study
 
     points = [
         to_dict(point)
         for point in read_study(arguments.config).points
-        if not arguments.model or solved_model(point) in arguments.model
+        if not arguments.model or choice.of(point).model in arguments.model
     ]
     old, new = (answers(folder, points) for folder in (arguments.old.resolve(), HERE))
     different = [
