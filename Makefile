@@ -20,10 +20,11 @@ study: $(READY)  ## check a study and run it: make study CONFIG=config/mine.yaml
 	@$(BIN)/snakemake --configfile "$$CONFIG" --cores "$$CORES"
 	@echo "The study in $$CONFIG is up to date: its tables, figures and report.html are in results/, under its name"
 
-test: $(READY)  ## set up, then lint, format and every test
+test: $(READY)  ## set up, then lint, format, types and every test
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/snakefmt --check Snakefile workflow
+	$(BIN)/mypy
 	$(BIN)/subslide warm radial:float64 one-layer:float64 quarter:float64 plane:float64 radial:float64:general
 	$(BIN)/python -m pytest -n auto --dist loadgroup $(PYTEST_OPTIONS)
 

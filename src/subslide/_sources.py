@@ -37,7 +37,7 @@ def source_hash(part: str = "record", name: str = "") -> str:
         12 hex digits.
     """
     digest = hashlib.sha256()
-    for path in sorted([*PACKAGE.rglob("*.py"), *PACKAGE.rglob("*.json")]):
+    for path in sorted(PACKAGE.rglob("*.py")):
         source = path.relative_to(PACKAGE)
         if _belongs(source, part, name):
             body = path.read_bytes()

@@ -3,7 +3,7 @@
 import hashlib
 import json
 import math
-from dataclasses import make_dataclass
+from dataclasses import dataclass, make_dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -54,7 +54,13 @@ def default_of(key: str) -> Any:
 
 if TYPE_CHECKING:
 
-    class Values:
+    class Defaults(type):
+        """Defaults of the values of a run, as attributes of the class."""
+
+        def __getattr__(cls, key: str) -> Any: ...
+
+    @dataclass(frozen=True, init=False)
+    class Values(metaclass=Defaults):
         """Values of a run by key: whatever has an entry in `subslide.keys.entries`."""
 
         def __init__(self, **values: Any) -> None: ...

@@ -90,12 +90,12 @@ def widen(spans, n, lanes, alone, joined):
         spans[:, LAST] = spans[:, WET_LAST] = n
         return
     for j in range(GHOSTS, rows - GHOSTS):
-        own = spans[j]
+        here = spans[j]
         for m in range(j - GHOSTS, j + GHOSTS + 1):
             near = spans[m]
-            own[FIRST], own[LAST] = reached(own[FIRST], own[LAST], near[LOW], near[HIGH], n, lanes)
+            here[FIRST], here[LAST] = reached(here[FIRST], here[LAST], near[LOW], near[HIGH], n, lanes)
             low, high = (near[WET_LOW], near[WET_HIGH]) if alone else (near[LOW], near[HIGH])
-            own[WET_FIRST], own[WET_LAST] = reached(own[WET_FIRST], own[WET_LAST], low, high, n, lanes)
+            here[WET_FIRST], here[WET_LAST] = reached(here[WET_FIRST], here[WET_LAST], low, high, n, lanes)
     for g in range(GHOSTS):
         for ghost, source in ((g, GHOSTS), (rows - 1 - g, rows - GHOSTS - 1)):
             inner = source + 1 if ghost < source else source - 1

@@ -26,8 +26,10 @@ from subslide.kernels.row import edges, grain_edges, water_edges
 
 @inlined
 def sample(s, c, mesh, watch, thresholds, low, high, wet, now, row):
-    """Write one sample into `row`, by the columns of `samples`. Cells outside low..high-1 are still, those outside
-    [wet[0], wet[1]) without grains."""
+    """Write one sample into `row`, by the columns of `samples`.
+
+    Cells outside low..high-1 are still, those outside [wet[0], wet[1]) without grains.
+    """
     row[samples.TIME] = now
     for m in range(samples.FRONTS):
         row[samples.FRONT + m] = front_position(c.h2, c.h2, watch.beside, wet[1], thresholds[m], s.dx)

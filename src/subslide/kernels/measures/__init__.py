@@ -25,8 +25,10 @@ PLACE = {name: place for place, name in enumerate(SERIES)}
 
 
 class RowSpan(NamedTuple):
-    """Columns of a row: [low, high) not still, [wet_low, wet_high) with grains; the surface is watched in [start,
-    stop), of which [inside_start, inside_stop) are within R."""
+    """Columns of a row: [low, high) not still, and [wet_low, wet_high) with grains.
+
+    The surface is watched in [start, stop), of which [inside_start, inside_stop) are within R.
+    """
 
     low: int
     high: int

@@ -10,8 +10,10 @@ SUM, LARGEST, SMALLEST = range(3)
 
 
 class Scales(NamedTuple):
-    """What scaled numbers are in SI units: R and H2 (m), g (m/s2), the volume R^2 H2 (m3) times the copies of a
-    quarter, and the number of these copies. On a line the volume is R H2 (m2)."""
+    """What scaled numbers are in SI units.
+
+    R and H2 (m), g (m/s2), the volume R^2 H2 (m3; on a line R H2, m2) times the copies of a quarter, and their number.
+    """
 
     length: float
     height: float

@@ -48,8 +48,8 @@ def row_hyperbolicity(h1, u1, v1, h2, u2, v2, ratio, r, dry_depth, margin, start
         sheared = discriminant(h1[i], h2[i], du * du + dv * dv, r)
         still = discriminant_without_shear(h1[i], h2[i], r)
         judged = (still if wet else zero) > margin
-        found = sheared / (still if judged else one)
-        ratio[i] = found if judged else one
+        share = sheared / (still if judged else one)
+        ratio[i] = share if judged else one
         lost += 1.0 if (sheared if wet else one) < -margin else 0.0
     smallest = one
     for k in range(count):
