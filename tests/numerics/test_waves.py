@@ -56,17 +56,23 @@ def test_outer_speeds_bound_the_eigenvalues(h1, u1, h2, u2, r):
 
 @settings(max_examples=300, deadline=None)
 @given(st.floats(0.05, 20), st.floats(0.001, 2), st.floats(-1, 1), st.floats(-0.5, 0.5), ratios)
-def test_speeds_are_exact_where_layers_shear_moderately(h1, h2, u, shear, r):
+@example(0.5, 1.0, 0.0, 0.5, 0.0625)  # 9.4e-6 outside
+@example(0.718886, 0.503698, 0.0, 0.495688, 0.0881748)  # the worst of two million states: 1.26e-4
+@example(1.355357, 1.736613, 0.0, 0.499511, 0.2014465)  # the worst of them from r = 0.2 on: 2.7e-7
+def test_speeds_are_nearly_exact_where_layers_shear_moderately(h1, h2, u, shear, r):
+    """Three Newton steps err most where layers that hardly feel each other have nearly equal speeds of their own."""
     u1, u2 = u, u + shear * np.sqrt((1 - r) * (h1 + h2)) * 0.5
     slow, fast = outer_speeds(h1, u1, h2, u2, r)
     centre, half = inner_speeds(h1, u1, h2, u2, r, slow, fast)
     values = np.sort(np.linalg.eigvals(matrix(h1, u1, h2, u2, r)).real)
     scale = np.abs(values).max()
-    assert abs(slow - values[0]) < 2e-6 * scale
-    assert abs(fast - values[3]) < 2e-6 * scale
+    error = 5e-7 if r >= 0.2 else 2e-4
+    assert -3e-7 * scale < values[0] - slow < error * scale
+    assert -3e-7 * scale < fast - values[3] < error * scale
     if half > 1e-3 * scale**2:
         root = np.sqrt(half)
-        np.testing.assert_allclose([centre - root, centre + root], values[1:3], atol=2e-4 * scale)
+        inner = [centre - root, centre + root]
+        np.testing.assert_allclose(inner, values[1:3], atol=(1e-6 if r >= 0.2 else 3e-4) * scale)
 
 
 @given(st.floats(0.01, 20), ratios, st.floats(-2, 2))
