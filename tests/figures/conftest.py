@@ -12,24 +12,25 @@ from made_up import RESOLVED, MadeUpResults, grid
 
 @pytest.fixture(scope="session")
 def paper():
-    """The paper's fifteen runs."""
+    """Return the paper's fifteen runs."""
     return MadeUpResults(grid((1, 2, 10), (0, 0.2, 0.4, 0.6, 0.8)))
 
 
 @pytest.fixture(scope="session")
 def both():
-    """The paper's fifteen runs with its numerics and resolved, with bands."""
+    """Return the paper's fifteen runs with its numerics and resolved, with bands."""
     values = ((1, 2, 10), (0, 0.2, 0.4, 0.6, 0.8))
     return MadeUpResults(grid(*values) + grid(*values, **RESOLVED), bands=True)
 
 
 @pytest.fixture(scope="session")
 def large():
-    """More values of a_H, r and a_2 than a figure shows."""
+    """Return more values of a_H, r and a_2 than a figure shows."""
     return MadeUpResults(grid((0.5, 1, 2, 3, 4, 10), np.arange(9) / 10) + grid((1, 10), (0, 0.4), a_2=1.0))
 
 
 @pytest.fixture(autouse=True)
 def _close():
+    """Close every figure of a test."""
     yield
     plt.close("all")

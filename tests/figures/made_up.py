@@ -49,16 +49,16 @@ class MadeUpResults:
         self.bands = pd.DataFrame(rows, columns=["id", "quantity", "time", "value", "band", "convergence"])
 
     def select(self, **values):
-        """Rows of the table of runs whose columns equal the given values."""
+        """Return the rows of the table of runs whose columns equal the given values."""
         return self.runs[np.logical_and.reduce([self.runs[key] == value for key, value in values.items()])]
 
     def record(self, name):
-        """Dataset of one run."""
+        """Return the dataset of one run."""
         return self.records[name]
 
 
 def made_up_run(row):
-    """Dataset of one run: a front that eases to its final length, a paraboloid under it, a ring of waves."""
+    """Return the dataset of one run: a front that eases to its final length, a paraboloid under it, a ring of waves."""
     radius, height = row["radius"], row["a_2"] * row["radius"]
     dx = 0.6 / row["cells"] * radius / 0.0705
     x = (np.arange(row["cells"] // 2) + 0.5) * dx
@@ -108,7 +108,7 @@ def made_up_run(row):
 
 
 def made_up_bands(name, data):
-    """Rows of the table of bands of a run: id, quantity, time, value, band, convergence."""
+    """Return the rows of the table of bands of a run: id, quantity, time, value, band, convergence."""
     known = data.attrs["row"]["numerics"] == "resolved"
     values = {("L_f_1pc", np.nan): float(data["L_f"][0])}
     series = {"x_front_1pc": data["x_front"].values[0], **{key: data[key].values for key in BANDED[2:]}}
@@ -120,14 +120,14 @@ def made_up_bands(name, data):
 
 
 def depth(x, front, radius, height):
-    """Depth that holds the column's volume between the axis and `front`."""
+    """Return the depth that holds the column's volume between the axis and `front`."""
     steep = np.clip((front - radius) / radius, 0.02, None)
     shape = np.clip(1 - (x / front) ** (2 / steep), 0, None)
     return shape * min(height, height * radius**2 / max(np.sum(2 * shape * x) * (x[1] - x[0]), 1e-12))
 
 
 def tidy(name, data):
-    """Series of a dataset as rows of id, time, quantity, value."""
+    """Return the series of a dataset as rows of id, time, quantity, value."""
     values = {
         f"x_front_{100 * t:.0f}pc": data["x_front"].values[k] for k, t in enumerate(naming.FRONT_THRESHOLDS)
     }
@@ -139,5 +139,5 @@ def tidy(name, data):
 
 
 def grid(a_H, r, **values):
-    """Values of runs: every a_H with every r."""
+    """Return the values of runs: every a_H with every r."""
     return [{"a_H": float(a), "r": float(b), **values} for a in a_H for b in r]

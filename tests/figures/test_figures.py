@@ -5,11 +5,13 @@ import re
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from made_up import RESOLVED, MadeUpResults, grid
 
 from subslide import catalogue
 from subslide.figures import _slices, _style, _words
+from subslide.keys import schema
 from subslide.laboratory import lube as laboratory
 
 NAMES = [name for name in catalogue.names("figures") if name.startswith("fig")]
@@ -19,17 +21,17 @@ UNIT = re.compile(r"\((mm|cm|m|km|ms|s|%)\)|/R\$|/H_2\$|^\$r\$$")
 
 
 def draw(name, results):
-    """The figure called `name` of a study."""
+    """Return the figure called `name` of a study."""
     return importlib.import_module(f"subslide.figures.{name}").draw(results)
 
 
 def seen(figure):
-    """Axes of a figure that are shown and hold something."""
+    """Return the axes of a figure that are shown and hold something."""
     return [ax for ax in figure.axes if ax.get_visible() and ax.has_data()]
 
 
 def words(figure):
-    """All text of a figure: title, notes and legends."""
+    """Return all text of a figure: title, notes and legends."""
     titles = [ax.get_title() for ax in figure.axes]
     return " ".join([figure.get_suptitle(), *titles, *(text.get_text() for text in figure.texts)]).replace(
         "\n", " "
@@ -121,8 +123,69 @@ def test_slice_keeps_one_value_of_what_does_not_vary():
     assert "cells = 100" in chosen.notes[0]
 
 
+KEYS = [key for key in ("numerics", *schema.run_keys()) if key not in ("a_H", "r", "snapshot_times")]
+"""Keys with a column in the table of runs that figures of collapses keep fixed."""
+SHOWN = {"numerics": "paper", "scene_options": "{}", "model": "radial", "fields": True}
+"""Values that figures take, of the keys for which that is neither the default nor the largest."""
+LEFT_OUT = {"scene_options": '{"steepness":0.5}', "order": 1, "cells": 100}
+
+
+def left_out(key, shown):
+    """Return another value of a key than the one that is shown."""
+    about = schema.properties()[key]
+    if "enum" in about:
+        return next(value for value in about["enum"] if value != shown)
+    return not shown if about.get("type") == "boolean" else 0.5
+
+
+@pytest.mark.parametrize("key", KEYS)
+def test_one_value_of_every_key_of_a_run_is_shown_and_the_other_told(key):
+    shown = SHOWN.get(key, schema.properties()[key]["default"])
+    other = LEFT_OUT.get(key, left_out(key, shown))
+    chosen = _slices.cut(
+        MadeUpResults(grid((1, 2), (0, 0.4), **{key: other}) + grid((1, 2, 10), (0, 0.4), **{key: shown}))
+    )
+    assert set(chosen.runs[key]) == {shown}
+    assert len(chosen.runs) == 6
+    assert chosen.notes == [f"Also in this study, not shown here: {_words.values(key, pd.Series([other]))}."]
+
+
+def test_every_key_of_a_run_is_settled_once():
+    assert sorted(_slices.settled_keys()) == sorted(("numerics", *schema.run_keys()))
+    assert set(_slices.PREFERRED) <= set(_slices.settled_keys())
+
+
+def test_a_new_key_of_a_run_is_settled_by_its_entry(monkeypatch):
+    entry = {"role": "method", "description": "a new one", "enum": ["new", "old"], "default": "new"}
+    monkeypatch.setitem(schema.properties(), "limiter", entry)
+    runs = [run | {"limiter": name} for name in ("old", "new") for run in grid((1, 2), (0, 0.4))]
+    chosen = _slices.cut(MadeUpResults(runs))
+    assert set(chosen.runs["limiter"]) == {"new"}
+    assert chosen.notes == ["Also in this study, not shown here: limiter = old."]
+
+
+def test_a_study_that_sweeps_the_flux_at_fronts_has_one_curve_for_each_run():
+    runs = [run | {"front_flux": flux} for flux in ("hll", "exact") for run in grid((1, 2), (0, 0.4))]
+    figure = draw("fig06_fronts", MadeUpResults(runs))
+    assert [len(ax.get_lines()) for ax in seen(figure)[:2]] == [2, 2]
+    assert "Also in this study, not shown here: front_flux = hll." in words(figure)
+
+
+def test_runs_that_differ_in_no_column_are_shown_once_and_counted():
+    chosen = _slices.cut(MadeUpResults(grid((1, 2), (0, 0.4)) * 2))
+    assert not chosen.runs.duplicated(["a_H", "r"]).any()
+    (note,) = chosen.notes
+    assert note.startswith("Also in this study, not shown here: 4 runs that differ in ")
+    assert "snapshot_times" in note
+
+
+def test_the_resolved_runs_with_fields_do_not_hide_the_papers_numerics():
+    runs = grid((1, 2), (0, 0.4), fields=False) + grid((1, 2), (0, 0.4), **RESOLVED, fields=True)
+    assert set(_slices.cut(MadeUpResults(runs)).runs["numerics"]) == {"paper"}
+
+
 def test_looks_differ_in_grey():
-    looks = _style.keys_to((0, 0.2, 0.4, 0.6, 0.8)).values()
+    looks = _style.looks_of((0, 0.2, 0.4, 0.6, 0.8)).values()
     grey = [np.dot(look["color"][:3], (0.299, 0.587, 0.114)) for look in looks]
     assert np.all(np.diff(grey) > 0.08)
     assert len({str(look["linestyle"]) for look in looks}) == 5

@@ -23,7 +23,7 @@ USUAL = {key: getattr(Point(), key) for key in METHOD}
 
 
 def made_up(depths=(1.0, 10.0), failed=False):
-    """A table with runs on 50, 100 and 200 cells of three methods: errors halve, seconds grow eightfold."""
+    """Return a table with runs on 50, 100 and 200 cells of three methods: errors halve, seconds grow eightfold."""
     rows = []
     for a_H in depths:
         for quantity in table.QUANTITIES:
@@ -53,12 +53,12 @@ def made_up(depths=(1.0, 10.0), failed=False):
 
 
 def panels(figure):
-    """Panels of the chart."""
+    """Return the panels of the chart."""
     return [ax for ax in figure.axes if ax.has_data()]
 
 
 def words(figure):
-    """Text below and above the panels."""
+    """Return the text below and above the panels."""
     return " ".join(text.get_text() for text in figure.texts).replace("\n", " ")
 
 

@@ -26,15 +26,15 @@ class MadeUp:
         self.all = {point.id: point for point in study.points}
         self.finest = {column(point): point.id for point in study.points if point.cells == 800}
         self.atlas = pd.DataFrame([self.row(point) for point in study.points])
-        found = [(m, s, o) for m in ("line", "radial") for s in ("ifcph", "hll") for o in (1, 2)]
+        methods = [(m, s, o) for m in ("line", "radial") for s in ("ifcph", "hll") for o in (1, 2)]
         self.cfl = pd.DataFrame(
             {"model": m, "scene": "cylinder", "scheme": s, "order": o, "cfl": cfl, "theory": 1.0,
              "stable": cfl < 1, "limit": cfl == 0.9 and (s, o) != ("hll", 1)}
-            for m, s, o in found for cfl in (0.6, 0.9, 1.2)
+            for m, s, o in methods for cfl in (0.6, 0.9, 1.2)
         )  # fmt: skip
 
     def row(self, point):
-        """Row of the atlas."""
+        """Return the row of the atlas."""
         row = {key: value for key, value in to_dict(point).items() if key in atlas.COLUMNS}
         status = "step_collapse" if point.a_H == 0.0215 else "left_domain" if point.delta == 0 else "ok"
         rate = exact.load("shear").growth_rate(point) if point.scene == "shear" else np.nan
@@ -53,7 +53,7 @@ class MadeUp:
         }
 
     def record(self, name):
-        """Record of one run."""
+        """Return the record of one run."""
         point = self.all[name]
         half = point.cells // 2
         line = choice.of(point).model == "line"
@@ -73,27 +73,27 @@ class MadeUp:
 
 @pytest.fixture(scope="module")
 def results(request):
-    """The made-up study."""
+    """Return the made-up study."""
     return MadeUp(read_study(request.config.rootpath / "config/stability.yaml"))
 
 
 def column(point):
-    """What tells the columns of the study apart."""
+    """Return what tells the columns of the study apart."""
     return point.scene, point.boundary, point.a_H, point.a_2, point.r, point.delta
 
 
 def draw(name, results):
-    """The figure called `name`."""
+    """Return the figure called `name`."""
     return importlib.import_module(f"subslide.figures.{name}").draw(results)
 
 
 def seen(figure):
-    """Axes that hold something, without the bar of colours."""
+    """Return the axes that hold something, without the bar of colours."""
     return [ax for ax in figure.axes if ax.has_data() and ax.get_label() != "<colorbar>"]
 
 
-def crosses(ax, color):
-    """Number of marks of a colour."""
+def symbols(ax, color):
+    """Return the number of symbols of a colour."""
     return sum(line.get_color() == color and line.get_linestyle() == "None" for line in ax.get_lines())
 
 
@@ -110,12 +110,12 @@ def test_maps_have_a_panel_for_each_scheme_and_order(name, results):
     assert axes[5].get_ylabel().startswith("order 2")
 
 
-def test_maps_mark_what_failed_and_what_gained_energy(results):
+def test_maps_show_what_failed_and_what_gained_energy(results):
     ax = seen(draw("stability_depth", results))[0]
     rows = results.atlas
-    own = rows[(rows["scene"] == "cylinder") & (rows["cells"] == 100) & (rows["delta"] == 32)]
-    densities = own[(own["a_H"] == 0.0215)]["r"].nunique()
-    assert crosses(ax, "#b40426") == 2 * densities  # a_H = 0.0215 failed, 0.01 gained energy
+    tried = rows[(rows["scene"] == "cylinder") & (rows["cells"] == 100) & (rows["delta"] == 32)]
+    densities = tried[(tried["a_H"] == 0.0215)]["r"].nunique()
+    assert symbols(ax, "#b40426") == 2 * densities  # a_H = 0.0215 failed, 0.01 gained energy
     outline = [line for line in ax.get_lines() if line.get_color() == "black" and line.get_linestyle() == "-"]
     assert len(outline) >= 4  # around the columns that lose hyperbolicity
 

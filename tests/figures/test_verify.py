@@ -55,7 +55,7 @@ class MadeUp:
         )
 
     def record(self, name):
-        """Record of one run."""
+        """Return the record of one run."""
         point = self.all[name]
         half = point.cells // 2
         x = (np.arange(0 if point.scene == "paraboloid" else -half, half) + 0.5) * point.dx
@@ -64,7 +64,7 @@ class MadeUp:
 
 
 def draw(name):
-    """The figure called `name` of the made-up study."""
+    """Return the figure called `name` of the made-up study."""
     return importlib.import_module(f"subslide.figures.{name}").draw(MadeUp())
 
 

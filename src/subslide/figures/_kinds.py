@@ -1,13 +1,18 @@
 """Kinds of numerics that a figure draws together, told apart by line, and the bands that each has."""
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from subslide.figures import _slices
+from subslide.figures import _slices, _style, _words
 from subslide.tables import _convergence as convergence
+
+if TYPE_CHECKING:
+    from subslide.results import Results
 
 PAIR = ("paper", "resolved")
 """Numerics that are drawn together where a study has both."""
@@ -26,76 +31,118 @@ class Kind(NamedTuple):
     bands: pd.DataFrame
 
     @property
-    def runs(self):
+    def runs(self) -> pd.DataFrame:
         """Table of the runs."""
         return self.chosen.runs
 
     @property
-    def banded(self):
+    def banded(self) -> bool:
         """Whether the runs have bands."""
         return not self.bands.empty
 
-    def line(self, look):
+    def line(self, look: _style.Look) -> dict[str, Any]:
         """Return the options of a curve without symbols: dashes say which kind, or which value if there is one kind."""
         style = LINES[self.name] if self.name else {"linestyle": look["linestyle"], "linewidth": 1.3}
         return {"color": look["color"], **style}
 
-    def marks(self, name, quantity):
-        """Return the rows (time, value, band in SI units; NaN where there is none) of a run's bands."""
-        rows = self.bands[(self.bands["id"] == name) & (self.bands["quantity"] == quantity)]
+    def banded_values(self, run: str, quantity: str) -> pd.DataFrame:
+        """Return the values of a run that have a row in the table of bands.
+
+        Parameters
+        ----------
+        run
+            Id of the run.
+        quantity
+            Name of the quantity, such as ``x_front_1pc``.
+
+        Returns
+        -------
+        DataFrame
+            A row for each time: ``time`` (s; NaN for a final length), ``value`` and ``band`` (SI units; a band is NaN
+            where three grids give no order).
+        """
+        rows = self.bands[(self.bands["id"] == run) & (self.bands["quantity"] == quantity)]
         band = rows["band"].where(rows["convergence"] == convergence.CONVERGING)
         return rows.assign(band=band)[["time", "value", "band"]].astype(float)
 
 
-def kinds(results, **options):
-    """Return the kinds of a figure: the paper's numerics and the resolved, or the one that `_slices.cut` prefers."""
+def of(results: "Results", **options: Any) -> list[Kind]:
+    """Return the kinds of a figure: the paper's numerics and the resolved, or the one that is preferred.
+
+    Parameters
+    ----------
+    results
+        The study.
+    **options
+        Options of `_slices.cut`, the same for each kind.
+    """
     names = [name for name in PAIR if (results.runs["numerics"] == name).any()]
-    chosen = (
+    slices = (
         {name: _slices.cut(results, numerics=name, **options) for name in PAIR}
         if len(names) == len(PAIR)
         else {"": _slices.cut(results, **options)}
     )
     bands = results.bands
-    return [Kind(name, one, bands[bands["id"].isin(one.runs["id"])]) for name, one in chosen.items()]
+    return [Kind(name, one, bands[bands["id"].isin(one.runs["id"])]) for name, one in slices.items()]
 
 
-def about(found):
+def about(kinds: list[Kind]) -> str:
     """Return what all runs share, for the line below a figure's title."""
-    if len(found) == 1:
-        return found[0].chosen.about
-    return _slices.shared(found[0].runs)
+    if len(kinds) == 1:
+        return kinds[0].chosen.about
+    return _words.shared(kinds[0].runs)
 
 
-def symbols(ax, kind, rows, look, x, unit, size=4.0):
-    """Nothing; values at the places `x` are in `ax`: filled with their bands as bars, open where not converged."""
+def symbols(
+    ax: Axes, kind: Kind, rows: pd.DataFrame, look: _style.Look, x: Any, unit: float, size: float = 4.0
+) -> None:
+    """Draw values as symbols: filled with their bands as bars, open where three grids give no order.
+
+    Parameters
+    ----------
+    ax
+        Panel to draw in.
+    kind
+        Kind of numerics that the values belong to; those of the paper's are smaller.
+    rows
+        Values and bands, as `Kind.banded_values` returns them.
+    look
+        Colour and marker.
+    x
+        Place of each row on the x axis, in units of that axis.
+    unit
+        Units of the y axis in the unit of the values.
+    size
+        Size of the symbols (point).
+    """
     size = 0.8 * size if kind.name == "paper" else size
     known = rows["band"].notna().to_numpy()
     values, bands = rows["value"].to_numpy() * unit, rows["band"].to_numpy() * unit
-    mark = {"marker": look["marker"], "color": look["color"], "linestyle": "", "markersize": size}
+    symbol = {"marker": look["marker"], "color": look["color"], "linestyle": "", "markersize": size}
     x = np.asarray(x, float)
     ax.errorbar(
         x[known],
         values[known],
         bands[known],
-        **mark,
+        **symbol,
         markeredgewidth=0,
         elinewidth=0.6 if kind.name == "paper" else 0.9,
         zorder=3,
     )
-    ax.plot(x[~known], values[~known], **mark, markerfacecolor="white", markeredgewidth=0.7, zorder=3.2)
+    ax.plot(x[~known], values[~known], **symbol, markerfacecolor="white", markeredgewidth=0.7, zorder=3.2)
 
 
-def entries(found):
+def entries(kinds: list[Kind]) -> list[_style.Entry]:
     """Return the entries of a legend, (handle, label): a line for each kind, and the symbols of bands."""
     lines = [
         (
             Line2D([], [], color="0.25", **LINES[kind.name]),
-            f"{TITLES[kind.name]}: {_slices.solver(kind.runs)}",
+            f"{TITLES[kind.name]}: {_words.solver(kind.runs)}",
         )
-        for kind in found
+        for kind in kinds
         if kind.name
     ]
-    if any(kind.banded for kind in found):
+    if any(kind.banded for kind in kinds):
         plain = {"color": "0.25", "marker": "o", "linestyle": "", "markersize": 4, "markeredgewidth": 0.8}
         bar = Line2D([], [], **{**plain, "marker": "|", "markersize": 10})
         lines += [((bar, Line2D([], [], **plain)), "value with its band of grid error")]
@@ -103,12 +150,22 @@ def entries(found):
     return lines
 
 
-def note(found, quantities, what):
-    """Return the notes on bands: what a bar is, and how many of the values marked are not converged."""
-    if not any(kind.banded for kind in found):
+def note(kinds: list[Kind], quantities: tuple[str, ...], what: str) -> list[str]:
+    """Return the notes on bands: what a bar is, and how many values have none.
+
+    Parameters
+    ----------
+    kinds
+        Kinds of numerics that the figure draws.
+    quantities
+        Quantities whose values it draws with bands.
+    what
+        What it calls them, such as 'fronts and lengths'.
+    """
+    if not any(kind.banded for kind in kinds):
         return []
     counts = []
-    for kind in found:
+    for kind in kinds:
         rows = kind.bands[kind.bands["quantity"].isin(quantities)]
         lost = int((rows["convergence"] != convergence.CONVERGING).sum())
         name = f"{TITLES[kind.name]} " if kind.name else ""
@@ -119,19 +176,24 @@ def note(found, quantities, what):
     ]
 
 
-def ratios(found, values):
+def ratios(kinds: list[Kind], values: Callable[[Kind], pd.Series]) -> tuple[float, float] | None:
     """Return (least, greatest) of the paper's numerics over the resolved, run by run; None without both.
 
-    values: a function of a kind that returns its values by (a_H, r).
+    Parameters
+    ----------
+    kinds
+        Kinds of numerics that the figure draws, the paper's first.
+    values
+        Function that returns the values of a kind, indexed by (a_H, r).
     """
-    if len(found) < len(PAIR):
+    if len(kinds) < len(PAIR):
         return None
-    coarse, fine = (values(kind) for kind in found)
+    coarse, fine = (values(kind) for kind in kinds)
     ratio = (coarse / fine).replace([np.inf, -np.inf], np.nan).dropna()
     return (float(ratio.min()), float(ratio.max())) if len(ratio) else None
 
 
-def percent(low, high):
+def percent(low: float, high: float) -> str:
     """Return 'low to high %' of two fractions, or one number where they read the same."""
     low, high = f"{100 * low:.3g}", f"{100 * high:.3g}"
     return f"{low} %" if low == high else f"{low} to {high} %"

@@ -1,10 +1,15 @@
 """Profiles along the x axis at given times, as figures draw them."""
 
-from typing import NamedTuple
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from subslide.figures import _slices, _words
+from subslide import naming
+from subslide.figures import _words
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 class Profile(NamedTuple):
@@ -17,18 +22,25 @@ class Profile(NamedTuple):
     at_rest: bool
 
 
-def profiles(record, name):
-    """Return the finite profiles of a record's variable, earliest first; from half a cell before the axis.
+def of_record(record: "xr.Dataset", variable: str) -> list[Profile]:
+    """Return the finite profiles of a run, earliest first; from half a cell before the axis.
 
     The last profile of a failed run, at no time that other runs have, is left out.
+
+    Parameters
+    ----------
+    record
+        Record of the run.
+    variable
+        Name of the profiles in it, such as ``h2``.
     """
     x = record["x"].to_numpy()
     times = np.atleast_1d(record["snapshot_time"].to_numpy())
     rest = float(record["time_at_rest"])
-    finished = str(record["status"].item()) in _slices.FINISHED
-    found = []
+    finished = str(record["status"].item()) in naming.FINISHED
+    profiles = []
     for k, time in enumerate(times):
-        values = record[name].isel(snapshot=k).to_numpy()
+        values = record[variable].isel(snapshot=k).to_numpy()
         seen = np.isfinite(values)
         if not np.isfinite(time) or not seen.any():
             continue
@@ -38,36 +50,36 @@ def profiles(record, name):
         last = k == len(times) - 1
         if last and not finished:
             continue
-        found.append(Profile(float(time), xs, values, last, last and rest <= time))
-    return found
+        profiles.append(Profile(float(time), xs, values, last, last and rest <= time))
+    return profiles
 
 
-def at(found, time):
+def at(profiles: list[Profile], time: float | None) -> Profile | None:
     """Return the profile at `time` (s), at the end of a finished run if None; None where there is none."""
     if time is None:
-        return next((p for p in found if p.last), None)
-    return next((p for p in found if abs(p.time - time) <= 1e-3 * max(time, 1e-12)), None)
+        return next((p for p in profiles if p.last), None)
+    return next((p for p in profiles if abs(p.time - time) <= 1e-3 * max(time, 1e-12)), None)
 
 
-def times_of(records, most):
-    """Return up to `most` times (s) after release at which the records have profiles, the end left out."""
-    seen = {float(f"{p.time:.6g}") for found in records for p in found if not p.last and p.time > 0}
+def times_of(runs: Iterable[list[Profile]], most: int) -> list[float]:
+    """Return up to `most` times (s) after release at which the runs have profiles, the end left out."""
+    seen = {float(f"{p.time:.6g}") for profiles in runs for p in profiles if not p.last and p.time > 0}
     times = sorted(seen)
     if len(times) <= most:
         return times
     return [times[k] for k in sorted({round(k) for k in np.linspace(0, len(times) - 1, most)})]
 
 
-def together(found, tolerance):
+def together(profiles: list[Profile], tolerance: float) -> list[list[Profile]]:
     """Return the profiles in groups, each within `tolerance` (m) of the first of its group."""
     groups = []
-    for profile in found:
+    for profile in profiles:
         same = groups and np.allclose(groups[-1][0].values, profile.values, rtol=0, atol=tolerance)
         groups[-1].append(profile) if same else groups.append([profile])
     return groups
 
 
-def name_of(group):
+def name_of(group: list[Profile]) -> str:
     """Return the words for a group of profiles: their times."""
     unit = _words.time_unit(max(p.time for p in group))
     words = [f"{p.time * unit.factor:.4g}" for p in group if not p.last]
@@ -80,21 +92,22 @@ def name_of(group):
     return text
 
 
-def start(shapes, far):
-    """Return where an axis begins: 0 where every profile mirrors itself or ends at the axis, else -far."""
+def start(runs: Iterable[list[Profile]], far: float) -> float:
+    """Return where an axis (m) begins: 0 where every profile mirrors itself or ends at the axis, else -far."""
     mirrored = (
         np.allclose(
             np.interp(-p.x, p.x, p.values), p.values, rtol=0, atol=1e-6 * max(np.abs(p.values).max(), 1e-30)
         )
-        for found in shapes
-        for p in found
+        for profiles in runs
+        for p in profiles
         if p.x[0] < -2 * (p.x[1] - p.x[0])
     )
     return 0.0 if all(mirrored) else -far
 
 
-def reach(found, floor):
+def reach(profiles: list[Profile], floor: float) -> float:
     """Return the largest |x| (m) where any profile exceeds `floor`."""
     return max(
-        (float(np.abs(p.x[p.values > floor]).max()) for p in found if (p.values > floor).any()), default=0.0
+        (float(np.abs(p.x[p.values > floor]).max()) for p in profiles if (p.values > floor).any()),
+        default=0.0,
     )

@@ -1,4 +1,4 @@
-"""From a finished study to files of figures: finds the figure's module, draws it and saves it."""
+"""Files of figures: the module of a figure is found, its figure of a finished study drawn and saved."""
 
 import importlib
 from pathlib import Path
@@ -12,7 +12,19 @@ from subslide.keys.schema import ConfigError
 def save(name: str, results: Path, output: Path) -> list[Path]:
     """Write a figure as PNG and SVG, the same bytes for the same results, and return their paths.
 
-    name: one of the modules of `subslide.figures`; results: folder of the study; output: folder of the files.
+    Parameters
+    ----------
+    name
+        Name of the figure: one of the modules of this folder.
+    results
+        Folder of a finished study.
+    output
+        Folder of the files; it is made if it is not there.
+
+    Raises
+    ------
+    ConfigError
+        If there is no such figure, or the study has no table of runs.
     """
     known = catalogue.names("figures")
     if name not in known:
@@ -31,7 +43,7 @@ def save(name: str, results: Path, output: Path) -> list[Path]:
 
     drawn = importlib.import_module(f"subslide.figures.{name}").draw(Results(results))
     output.mkdir(parents=True, exist_ok=True)
-    paths = [output / f"{name}.{kind}" for kind in ("png", "svg")]
+    paths = [output / f"{name}.{suffix}" for suffix in ("png", "svg")]
     for path, metadata in zip(paths, ({"Software": None}, {"Date": None}), strict=True):
         with replacing(path) as temporary:
             drawn.savefig(temporary, format=path.suffix[1:], dpi=200, bbox_inches="tight", metadata=metadata)

@@ -2,14 +2,26 @@
 
 import functools
 import re
+from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 import seaborn as sns
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from subslide.figures import _words
+
+if TYPE_CHECKING:
+    from subslide.results import Results
+
+Look = dict[str, Any]
+"""Colour, dashes (`linestyle`) and marker of one value, as options of a line."""
+Entry = tuple[Any, str]
+"""Handle and label of an entry of a legend."""
 
 WIDTH = 7.2
 """Width of a figure on a printed page (inch)."""
@@ -41,11 +53,17 @@ class NoRunsError(Exception):
     """The study has no run that a figure could show."""
 
 
-def styled(draw):
-    """Return `draw` so that its figure is made in the style of all figures; an empty one if it has no run."""
+def styled(draw: Callable[["Results"], Figure]) -> Callable[["Results"], Figure]:
+    """Return `draw` so that its figure is made in the style of all figures; an empty one if it has no run.
+
+    Parameters
+    ----------
+    draw
+        Function of a figure's module (see `subslide.figures`).
+    """
 
     @functools.wraps(draw)
-    def wrapped(results):
+    def wrapped(results: "Results") -> Figure:
         with sns.axes_style("ticks", {"axes.grid": True}), mpl.rc_context(RC):
             try:
                 return draw(results)
@@ -57,10 +75,21 @@ def styled(draw):
     return wrapped
 
 
-def panels(count, columns, height, **options):
-    """Return (figure, axes list): `count` panels in rows of `columns`, each row `height` inches high.
+def panels(count: int, columns: int, height: float, **options: Any) -> tuple[Figure, list[Axes]]:
+    """Return a figure and its panels, row by row.
 
     A panel with none below it has the numbers of its x axis, even where panels share that axis.
+
+    Parameters
+    ----------
+    count
+        Number of panels.
+    columns
+        Panels in a row.
+    height
+        Height of a row (inch).
+    **options
+        Options of `matplotlib.pyplot.subplots`.
     """
     rows = -(-count // columns)
     figure, grid = plt.subplots(
@@ -76,8 +105,20 @@ def panels(count, columns, height, **options):
     return figure, axes[:count]
 
 
-def keys_to(values, palette="viridis", dark=0.0, light=0.82):
-    """Return {value: look}: shade, dashes and marker, told apart in grey and by eyes that see few colours."""
+def looks_of(
+    values: Iterable, palette: str = "viridis", dark: float = 0.0, light: float = 0.82
+) -> dict[Any, Look]:
+    """Return the look of each value: shade, dashes and marker, told apart in grey and by eyes that see few colours.
+
+    Parameters
+    ----------
+    values
+        Values to tell apart, with a length.
+    palette
+        Name of a colour map.
+    dark, light
+        Places on the map, from 0 to 1, of the first and the last value.
+    """
     shades = mpl.colormaps[palette](np.linspace(dark, light, max(len(values), 2)))
     return {
         value: {
@@ -89,13 +130,23 @@ def keys_to(values, palette="viridis", dark=0.0, light=0.82):
     }
 
 
-def line(look):
+def line(look: Look) -> Look:
     """Return the options of a line without markers."""
     return {key: look[key] for key in ("color", "linestyle")}
 
 
-def handles(looks, key, markers=True, dashes=True):
-    """Return the entries of a legend, (handle, label), one for each value of `key`."""
+def handles(looks: dict[Any, Look], key: str, markers: bool = True, dashes: bool = True) -> list[Entry]:
+    """Return the entries of a legend, one for each value of a key.
+
+    Parameters
+    ----------
+    looks
+        Look of each value.
+    key
+        Key that has the values.
+    markers, dashes
+        Whether curves have markers and dashes of their own.
+    """
     options = {"markeredgewidth": 0} if markers else {"marker": ""}
     if not dashes:
         options["linestyle"] = "-"
@@ -104,20 +155,43 @@ def handles(looks, key, markers=True, dashes=True):
     ]
 
 
-def mark_end(ax, x, y):
-    """Nothing; a cross stands where a curve ends before its run should have."""
+def cross_end(ax: Axes, x: float, y: float) -> None:
+    """Draw a cross where a curve ends before its run should have."""
     ax.plot(x, y, "x", color="black", markersize=6, markeredgewidth=1.4, zorder=5, clip_on=False)
 
 
-def bottom_row(axes, columns):
+def bottom_row(axes: list[Axes], columns: int) -> list[Axes]:
     """Return the panels that have none below them."""
     return axes[max(len(axes) - columns, 0) :]
 
 
-def finish(figure, title, about, notes=(), entries=None, columns=5, more=()):
+def finish(
+    figure: Figure,
+    title: str,
+    about: str,
+    notes: Sequence[str] = (),
+    entries: Sequence[Entry] = (),
+    columns: int = 5,
+    more: Sequence[Entry] = (),
+) -> Figure:
     """Return the figure with its title, what all its runs share, a legend below and notes below that.
 
-    entries: (handle, label) pairs of the legend; more: further ones, in rows of two below.
+    Parameters
+    ----------
+    figure
+        Figure whose panels are drawn.
+    title
+        Its title.
+    about
+        What all its runs share.
+    notes
+        Paragraphs below the figure; '' leaves an empty line.
+    entries
+        Entries of the legend, in rows of ``columns``.
+    columns
+        Entries in a row.
+    more
+        Further entries, in rows of two below.
     """
     inch = 1 / figure.get_figheight()
     figure.suptitle(title, y=1 - 0.05 * inch, va="top", fontweight="bold")
@@ -140,7 +214,7 @@ def finish(figure, title, about, notes=(), entries=None, columns=5, more=()):
     return figure
 
 
-def _wrapped(text, width):
+def _wrapped(text: str, width: int) -> list[str]:
     """Return lines of up to `width` characters as they are seen: marks of mathematics take no room."""
     lines, room = [[]], width
     for word in text.split():

@@ -1,10 +1,17 @@
 """Paper's Figure 4: profiles of the grains without buoyancy (r = 0), beside the laboratory's runout law."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from subslide import naming
 from subslide.figures import _profiles, _slices, _style, _words
 from subslide.laboratory import lube as laboratory
+
+if TYPE_CHECKING:
+    from subslide.results import Results
 
 TITLE = "Profiles of the grains at r = 0, beside the laboratory runout law"
 CATEGORY = "1 Shape of the grains"
@@ -16,14 +23,25 @@ LAW = {"color": "black", "linewidth": 2.2, "zorder": 1.5}
 
 
 @_style.styled
-def draw(results):
-    """Return the figure: all profiles of one run, and the foot of the deposit for each a_H."""
+def draw(results: "Results") -> Figure:
+    """Return the figure: all profiles of one run, and the foot of the deposit for each a_H.
+
+    Parameters
+    ----------
+    results
+        A finished study.
+
+    Returns
+    -------
+    Figure
+        Two panels.
+    """
     chosen = _slices.cut(results, by=("a_H",), most={"a_H": 4}, r=0)
     runs = chosen.runs
     radius, height = _slices.sizes(runs)
     runout = laboratory.runout(runs.iloc[0]["a_2"])
     records = {row["a_H"]: results.record(row["id"]) for _, row in runs.iterrows()}
-    shapes = {a_H: _profiles.profiles(record, "h2") for a_H, record in records.items()}
+    shapes = {a_H: _profiles.of_record(record, "h2") for a_H, record in records.items()}
 
     figure, (left, right) = _style.panels(2, 2, 2.9)
     main = _slices.nearest(list(shapes), 1)
@@ -37,21 +55,23 @@ def draw(results):
     }
     farthest = np.nanmax([runout, *fronts.values()])
     right.set_xlim(0.75 * runout, 1.1 * farthest)
-    notes = [*_notes(depths, fronts, runout), *chosen.notes, *_slices.trouble(runs, by=("a_H",))]
+    notes = [*_notes(depths, fronts, runout), *chosen.notes, *_words.trouble(runs, by=("a_H",))]
     title = "Profiles of the grains at $r$ = 0, beside the laboratory runout law"
     return _style.finish(figure, title, chosen.about, notes)
 
 
-def _evolution(ax, found, radius, height, runout):
-    """Nothing; profiles at all times are in `ax`, those that coincide as one line."""
+def _evolution(
+    ax: Axes, profiles: list[_profiles.Profile], radius: float, height: float, runout: float
+) -> None:
+    """Draw the profiles of a run at all times, those that coincide as one line."""
     x_unit, unit = _words.length_unit(3 * radius), _words.length_unit(height)
-    groups = _profiles.together(found, 2e-3 * height)
-    for look, group in zip(_style.keys_to(range(len(groups)), light=0.75).values(), groups, strict=False):
+    groups = _profiles.together(profiles, 2e-3 * height)
+    for look, group in zip(_style.looks_of(range(len(groups)), light=0.75).values(), groups, strict=False):
         x, depth = group[0].x * x_unit.factor, group[0].values * unit.factor
         ax.plot(x, depth, **_style.line(look), label=_profiles.name_of(group))
     ax.axvline(runout * radius * x_unit.factor, ymax=0.72, **LAW)
-    far = max(_profiles.reach(found, 1e-3 * height), runout * radius)
-    begin = _profiles.start([found], far)
+    far = max(_profiles.reach(profiles, 1e-3 * height), runout * radius)
+    begin = _profiles.start([profiles], far)
     ax.set(
         xlim=(1.08 * begin * x_unit.factor, 1.08 * far * x_unit.factor), ylim=(0, 1.45 * height * unit.factor)
     )
@@ -68,13 +88,19 @@ def _evolution(ax, found, radius, height, runout):
     )
 
 
-def _foot(ax, shapes, radius, height, runout):
-    """Return {a_H: depth (% of H2) at the law's runout}; the last profiles are in `ax`."""
+def _foot(
+    ax: Axes,
+    shapes: dict[float, list[_profiles.Profile]],
+    radius: float,
+    height: float,
+    runout: float,
+) -> dict[float, float]:
+    """Draw the last profile of each a_H, and return its depth (% of H2) at the law's runout by a_H."""
     depths = {}
-    for (a_H, look), found in zip(
-        _style.keys_to(shapes, palette="plasma", light=0.7).items(), shapes.values(), strict=True
+    for (a_H, look), profiles in zip(
+        _style.looks_of(shapes, palette="plasma", light=0.7).items(), shapes.values(), strict=True
     ):
-        end = _profiles.at(found, None)
+        end = _profiles.at(profiles, None)
         if end is None:
             continue
         depths[a_H] = 100 * np.interp(runout * radius, end.x, end.values) / height
@@ -91,7 +117,7 @@ def _foot(ax, shapes, radius, height, runout):
     return depths
 
 
-def _notes(depths, fronts, runout):
+def _notes(depths: dict[float, float], fronts: dict[float, float], runout: float) -> list[str]:
     """Return what the figure measures where the law puts the edge of the deposit."""
     rule = "1 + 1.24 $a_2$ where $a_2$ < 1.7, else 1 + 1.6 $\\sqrt{a_2}$"
     notes = [

@@ -1,6 +1,14 @@
 """Paper's Figure 5: depth of the grains along x at given times, for each ratio of densities."""
 
+from typing import TYPE_CHECKING
+
+import pandas as pd
+from matplotlib.figure import Figure
+
 from subslide.figures import _profiles, _slices, _style, _words
+
+if TYPE_CHECKING:
+    from subslide.results import Results
 
 TITLE = "Depth of the grains along x, for each ratio of densities r"
 CATEGORY = "1 Shape of the grains"
@@ -8,15 +16,26 @@ NEEDS = {}
 
 
 @_style.styled
-def draw(results):
-    """Return the figure: a panel for each time of the profiles, a line for each r."""
+def draw(results: "Results") -> Figure:
+    """Return the figure: a panel for each time of the profiles, a line for each r.
+
+    Parameters
+    ----------
+    results
+        A finished study.
+
+    Returns
+    -------
+    Figure
+        A panel for each time, the end of the run last.
+    """
     a_H = _slices.nearest(_slices.values_of(results, "a_H"), 1)
     chosen = _slices.cut(results, by=("a_H", "r"), most={"r": 6}, a_H=a_H)
     runs = chosen.runs
     radius, height = _slices.sizes(runs)
     round_column = runs.iloc[0]["scene"] == "cylinder"
-    shapes = {row["r"]: _profiles.profiles(results.record(row["id"]), "h2") for _, row in runs.iterrows()}
-    looks = _style.keys_to(shapes)
+    shapes = {row["r"]: _profiles.of_record(results.record(row["id"]), "h2") for _, row in runs.iterrows()}
+    looks = _style.looks_of(shapes)
     times = [0.0, *_profiles.times_of(shapes.values(), 4), None]
     x_unit, unit, t_unit = (
         _words.length_unit(3 * radius),
@@ -30,15 +49,18 @@ def draw(results):
     for k, (ax, time) in enumerate(zip(axes, times, strict=True)):
         when = _words.moment(time, t_unit) if time is not None else "end of the run"
         ax.set_title(_words.panel(k, when))
-        for r, found in shapes.items():
-            profile = _profiles.at(found, time)
+        for r, profiles in shapes.items():
+            profile = _profiles.at(profiles, time)
             if profile is None:
                 missing.append(f"{_words.equation('r', r)}, {when}")
                 continue
             ax.plot(profile.x * x_unit.factor, profile.values * unit.factor, **_style.line(looks[r]))
         if round_column:
             ax.axvline(radius * x_unit.factor, color=_style.GREY, linewidth=0.7, linestyle=":", zorder=0.5)
-    far = 1.05 * max(_profiles.reach(found, 2e-3 * height) for found in shapes.values()) + runs.iloc[0]["dx"]
+    far = (
+        1.05 * max(_profiles.reach(profiles, 2e-3 * height) for profiles in shapes.values())
+        + runs.iloc[0]["dx"]
+    )
     begin = _profiles.start(shapes.values(), far)
     axes[0].set(xlim=(begin * x_unit.factor, far * x_unit.factor), ylim=(0, 1.1 * height * unit.factor))
     for ax in _style.bottom_row(axes, columns):
@@ -48,12 +70,12 @@ def draw(results):
     notes = ["Dotted: edge of the column at release. " * round_column + _rest(runs, t_unit)]
     if missing:
         notes.append(f"No profile: {'; '.join(missing)}.")
-    notes += [*chosen.notes, *_slices.trouble(runs)]
+    notes += [*chosen.notes, *_words.trouble(runs)]
     title = f"Depth of the grains $h_2$ along $x$ for each $r$, {_words.equation('a_H', a_H)}"
     return _style.finish(figure, title, chosen.about, notes, _style.handles(looks, "r", markers=False), 6)
 
 
-def _rest(runs, unit):
+def _rest(runs: pd.DataFrame, unit: _words.Unit) -> str:
     """Return when each run came to rest, in words."""
     still = runs[runs["time_at_rest"].notna()]
     if still.empty:

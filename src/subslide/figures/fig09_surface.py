@@ -1,9 +1,15 @@
 """Paper's Figure 9: the water surface along x at given times, for the depths nearest to a_H = 1 and 2."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
+from matplotlib.figure import Figure
 
 from subslide.figures import _profiles, _slices, _style, _water, _words
 from subslide.points import PAPER_BOX
+
+if TYPE_CHECKING:
+    from subslide.results import Results
 
 TITLE = "Water surface along x at the paper's times"
 CATEGORY = "3 Water surface"
@@ -11,22 +17,33 @@ NEEDS = {}
 
 
 @_style.styled
-def draw(results):
-    """Return the figure: a row for each time, a column for each a_H, a line for each r."""
+def draw(results: "Results") -> Figure:
+    """Return the figure: a row for each time, a column for each a_H, a line for each r.
+
+    Parameters
+    ----------
+    results
+        A finished study.
+
+    Returns
+    -------
+    Figure
+        A panel for each time and depth of water.
+    """
     known = _slices.values_of(results, "a_H")
     chosen = _slices.cut(results, most={"r": 6}, a_H=[_slices.nearest(known, 1), _slices.nearest(known, 2)])
     runs, dry = _water.wet(chosen.runs)
     shown, left_out = _water.buoyant(runs)
     radius, _ = _slices.sizes(chosen.runs)
-    looks = {r: look for r, look in _style.keys_to(runs["r"].unique()).items() if r in set(shown["r"])}
+    looks = {r: look for r, look in _style.looks_of(runs["r"].unique()).items() if r in set(shown["r"])}
     round_column = chosen.runs.iloc[0]["scene"] == "cylinder"
     shapes = {
-        (row["a_H"], row["r"]): _profiles.profiles(results.record(row["id"]), "eta")
+        (row["a_H"], row["r"]): _profiles.of_record(results.record(row["id"]), "eta")
         for _, row in shown.iterrows()
     }
     depths = sorted(shown["a_H"].unique()) or [np.nan]
     times = _profiles.times_of(shapes.values(), 4)
-    waves = [p.values for found in shapes.values() for p in found]
+    waves = [p.values for profiles in shapes.values() for p in profiles]
     x_unit, unit, t_unit = (
         _words.length_unit(3 * radius),
         _words.length_unit(*waves),
@@ -69,6 +86,6 @@ def draw(results):
         notes += _water.beside(results, chosen, times[:2], t_unit)
     if missing:
         notes.append(f"No profile: {'; '.join(missing)}.")
-    notes += [*left_out, *dry, *chosen.notes, *_slices.trouble(shown)]
+    notes += [*left_out, *dry, *chosen.notes, *_words.trouble(shown)]
     title = f"Displacement of the water surface {_words.SYMBOLS['eta']} along $x$"
     return _style.finish(figure, title, chosen.about, notes, _style.handles(looks, "r", markers=False), 6)

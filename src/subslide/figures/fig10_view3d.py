@@ -1,9 +1,16 @@
 """Paper's Figure 10: the grains and the water surface in three dimensions, r = 0.4 and a_H = 1."""
 
+from typing import TYPE_CHECKING, Any
+
 import matplotlib as mpl
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from subslide.figures import _profiles, _slices, _style, _water, _words
+
+if TYPE_CHECKING:
+    from subslide.results import Results
 
 TITLE = "Grains and water surface in three dimensions, r = 0.4, a_H = 1"
 CATEGORY = "4 Views"
@@ -22,16 +29,27 @@ LIGHT = mpl.colors.LightSource(azdeg=190, altdeg=55)
 
 
 @_style.styled
-def draw(results):
-    """Return the figure: four times; the grains and, above them, the water with a sector cut away."""
+def draw(results: "Results") -> Figure:
+    """Return the figure: four times; the grains and, above them, the water with a sector cut away.
+
+    Parameters
+    ----------
+    results
+        A finished study.
+
+    Returns
+    -------
+    Figure
+        A panel for each of four times.
+    """
     chosen = _slices.cut(results, a_H=1, r=0.4)
     runs, dry = _water.wet(chosen.runs)
     record = results.record(chosen.runs.iloc[0]["id"])
     radius, height = _slices.sizes(chosen.runs)
-    level = height * (1 + chosen.runs.iloc[0]["a_H"])
-    grains = _profiles.profiles(record, "h2")
+    level = _slices.column(chosen.runs.iloc[0]).level
+    grains = _profiles.of_record(record, "h2")
     times = _profiles.times_of([grains], 4) or [0.0]
-    water = [_profiles.at(_profiles.profiles(record, "eta") if len(runs) else [], time) for time in times]
+    water = [_profiles.at(_profiles.of_record(record, "eta") if len(runs) else [], time) for time in times]
     largest = max((_largest(profile, radius) for profile in water if profile is not None), default=0.0)
     scale = max((s for s in (1, 2, 5, 10, 20, 50, 100) if s * largest <= height / 2), default=1)
     x_unit, unit, t_unit = (
@@ -84,36 +102,43 @@ def draw(results):
     if largest > 0:
         notes += _water.beside(results, chosen, times[:2], t_unit)
     title = f"Grains and water surface, {_words.equation('r', 0.4)}, {_words.equation('a_H', 1)}"
-    notes += [*dry, *chosen.notes, *_slices.trouble(chosen.runs)]
+    notes += [*dry, *chosen.notes, *_words.trouble(chosen.runs)]
     return _style.finish(figure, title, chosen.about, notes)
 
 
-def _turned(profile, radius, far, angles):
+def _turned(
+    profile: _profiles.Profile, radius: float, far: float, angles: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return x, y and the values of a profile (m) within `far`, turned about the axis."""
     r = np.linspace(1e-3 * radius, min(REACH * radius, far), 65)[:, None]
     values = np.interp(r, profile.x, profile.values)
     return r * np.cos(angles), r * np.sin(angles), values + 0 * angles
 
 
-def _surface(ax, x, y, z, shades, **options):
+def _surface(
+    ax: Axes, x: np.ndarray, y: np.ndarray, z: np.ndarray, shades: np.ndarray, **options: Any
+) -> None:
+    """Draw a surface as facets of given colours."""
     still = {"rstride": 1, "cstride": 1, "linewidth": 0, "antialiased": False, "rasterized": True}
     ax.plot_surface(x, y, z, facecolors=shades, **still, **options)
 
 
-def _edges(ax, x, y, z):
-    """Nothing; rings and the two cut edges of a surface are in `ax`, for prints without colour."""
+def _edges(ax: Axes, x: np.ndarray, y: np.ndarray, z: np.ndarray) -> None:
+    """Draw rings and the two cut edges of a surface, for prints without colour."""
     for ring in range(len(z) - 1, 0, -8):
         ax.plot(x[ring], y[ring], z[ring], color="0.25", linewidth=0.4, zorder=3)
     for cut in (0, -1):
         ax.plot(x[:, cut], y[:, cut], z[:, cut], color="0.1", linewidth=0.9, zorder=3)
 
 
-def _frame(ax, reach, top):
+def _frame(ax: Axes, reach: float, top: float) -> None:
+    """Set the limits, the proportions and the view of a panel."""
     ax.set(xlim=(-reach, reach), ylim=(-reach, reach), zlim=(0, top))
     ax.set_box_aspect((1, 1, FLAT), zoom=1.15)
     ax.view_init(elev=24, azim=-60)
     ax.tick_params(pad=-2, labelsize=6.5)
 
 
-def _largest(profile, radius):
+def _largest(profile: _profiles.Profile, radius: float) -> float:
+    """Return the largest absolute value (m) of a profile within the view."""
     return float(np.abs(profile.values[profile.x <= REACH * radius]).max())

@@ -1,11 +1,17 @@
 """Largest stable Courant number, measured, beside the theoretical one: bars for each scheme and order."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from subslide.figures import _atlas, _style, _words
 from subslide.points import Point
+
+if TYPE_CHECKING:
+    from subslide.results import Results
 
 TITLE = "Largest stable Courant number"
 CATEGORY = "8 Stability"
@@ -15,12 +21,23 @@ SCENES = {"standing_wave": "standing wave", "dam_break": "dam break", "cylinder"
 
 
 @_style.styled
-def draw(results):
-    """Return the figure: a panel for each model and scene, a bar for each scheme and order."""
-    found = _atlas.limits(results.cfl)
-    groups = list(found.groupby(["model", "scene"], sort=False))
-    schemes = list(dict.fromkeys(found["scheme"]))
-    looks = _style.keys_to(sorted(schemes))
+def draw(results: "Results") -> Figure:
+    """Return the figure: a panel for each model and scene, a bar for each scheme and order.
+
+    Parameters
+    ----------
+    results
+        A finished study with a table of Courant numbers.
+
+    Returns
+    -------
+    Figure
+        A panel for each model and scene.
+    """
+    largest = _atlas.limits(results.cfl)
+    groups = list(largest.groupby(["model", "scene"], sort=False))
+    schemes = list(dict.fromkeys(largest["scheme"]))
+    looks = _style.looks_of(sorted(schemes))
     figure, axes = _style.panels(len(groups), COLUMNS, 1.7, sharey=True)
     for k, (ax, ((model, scene), rows)) in enumerate(zip(axes, groups, strict=True)):
         for _, row in rows.iterrows():

@@ -1,10 +1,19 @@
 """What failure looks like: profiles and series of runs that went wrong, beside those that did not."""
 
+from typing import TYPE_CHECKING, Any
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from subslide.figures import _atlas, _style, _words
-from subslide.points import Point
+from subslide import naming
+from subslide.figures import _atlas, _slices, _style, _words
+from subslide.points import RUN_KEYS, Point
 from subslide.tables import atlas
+
+if TYPE_CHECKING:
+    from subslide.results import Results
 
 TITLE = "What failure looks like"
 CATEGORY = "8 Stability"
@@ -15,8 +24,19 @@ START = {"color": "0.75", "linewidth": 2.5, "linestyle": "-"}
 
 
 @_style.styled
-def draw(results):
-    """Return the figure: a panel for each way to fail; a study without such a run has none in its panel."""
+def draw(results: "Results") -> Figure:
+    """Return the figure: a panel for each way to fail; a study without such a run has none in its panel.
+
+    Parameters
+    ----------
+    results
+        A finished study with a stability atlas.
+
+    Returns
+    -------
+    Figure
+        Six panels.
+    """
     figure, axes = _style.panels(6, 2, 1.9)
     panels = (creeping, printed, checkerboard, blown_up, film, quiet)
     for k, (ax, panel) in enumerate(zip(axes, panels, strict=True)):
@@ -38,8 +58,8 @@ def draw(results):
     return _style.finish(figure, TITLE, "real runs of this study", notes, entries, 3)
 
 
-def creeping(ax, results):
-    """Return the title of a panel of a pile, which friction must hold, after long creeping; None without such runs."""
+def creeping(ax: Axes, results: "Results") -> str | None:
+    """Draw a pile, which friction must hold, after long creeping; return the title, or None without such runs."""
     wrong = first(results, scene="pile", friction_in_viscosity=False)
     right = wrong is not None and twin(results, wrong, friction_in_viscosity=True)
     if right is None or wrong is None:
@@ -52,8 +72,8 @@ def creeping(ax, results):
     return f"creeping: a pile at rest after {last:.3g} s\nwithout friction in the viscosity"
 
 
-def printed(ax, results):
-    """Return the title of a panel of the paper's printed test of rest; None without such a run."""
+def printed(ax: Axes, results: "Results") -> str | None:
+    """Draw the paper's printed test of rest; return the title, or None without such a run."""
     wrong = first(results, as_printed="friction", r=Point.r, a_H=1)
     if wrong is None:
         return None
@@ -66,8 +86,8 @@ def printed(ax, results):
     return f"the printed test of rest stops nothing:\nstatus {wrong['status']} after {last:.3g} s"
 
 
-def checkerboard(ax, results):
-    """Return the title of a panel of oscillations between cells; None without such a run."""
+def checkerboard(ax: Axes, results: "Results") -> str | None:
+    """Draw oscillations between cells; return the title, or None without such a run."""
     row = fast(results, ascending=True)
     if row is None:
         return None
@@ -80,8 +100,8 @@ def checkerboard(ax, results):
     return f"checkerboard: Courant number {row['cfl']:g},\n{method(row)}, {time:.3g} s"
 
 
-def blown_up(ax, results):
-    """Return the title of a panel of the energy of a run that blew up; None without such a run."""
+def blown_up(ax: Axes, results: "Results") -> str | None:
+    """Draw the energy of a run that blew up; return the title, or None without such a run."""
     row = fast(results, ascending=False)
     if row is None:
         return None
@@ -91,25 +111,25 @@ def blown_up(ax, results):
     )
 
 
-def film(ax, results):
-    """Return the title of a panel of a run that failed under a film of water; None without such a run."""
+def film(ax: Axes, results: "Results") -> str | None:
+    """Draw a run that failed under a film of water; return the title, or None without such a run."""
     rows = usual(results)
     rows = rows[(rows["status"] == "step_collapse") & (rows["a_H"] > 0)]
     if rows.empty:
         return None
     row = rows.sort_values(["a_H", "id"]).iloc[-1]
     data = results.record(row["id"]).isel(snapshot=-1)
-    height = row["a_2"] * row["radius"]
+    height = _slices.column(row).column_height
     ax.plot(data["x"] / row["radius"], data["h2"] / height, **START)
     ax.plot(data["x"] / row["radius"], 1 + row["a_H"] + data["eta"] / height, **WRONG)
     labels(ax, "$x/R$", "$h_2/H_2$ and surface$/H_2$")
-    return f"{row['status']}: the film's water runs away\n({column(row)})"
+    return f"{row['status']}: the film's water runs away\n({column_words(row)})"
 
 
-def quiet(ax, results):
-    """Return the title of a panel of a run that ended well although its energy rose; None without such a run."""
+def quiet(ax: Axes, results: "Results") -> str | None:
+    """Draw a run that ended well although its energy rose; return the title, or None without such a run."""
     rows = usual(results)
-    rows = rows[rows["status"].isin(atlas.FINISHED) & (rows["energy_rise"] > atlas.GAINED)]
+    rows = rows[rows["status"].isin(naming.FINISHED) & (rows["energy_rise"] > atlas.GAINED)]
     if rows.empty:
         return None
     row = rows.sort_values(["energy_rise", "id"]).iloc[-1]
@@ -117,16 +137,16 @@ def quiet(ax, results):
     fine = results.atlas[results.atlas["id"] == row["reference"]]
     if len(fine):
         energy(ax, results, fine.iloc[0], RIGHT)
-    return f"status {row['status']}, yet energy rose (blue: finest grid)\n({column(row)})"
+    return f"status {row['status']}, yet energy rose (blue: finest grid)\n({column_words(row)})"
 
 
-def usual(results):
+def usual(results: "Results") -> pd.DataFrame:
     """Return the rows of collapses behind walls with the default scheme on the grid of the maps."""
     rows = _atlas.chosen(results, scheme=Point.scheme, boundary="wall", a_2=Point.a_2)
     return rows[rows["cells"] == rows["cells"].mode().iloc[0]]
 
 
-def first(results, **values):
+def first(results: "Results", **values: Any) -> pd.Series | None:
     """Return the first row of a first-order run of the default scheme with these values, or None."""
     rows = results.atlas
     for key, value in {"scheme": Point.scheme, "order": 1, **values}.items():
@@ -134,57 +154,64 @@ def first(results, **values):
     return rows.iloc[0] if len(rows) else None
 
 
-def fast(results, ascending):
+def fast(results: "Results", ascending: bool) -> pd.Series | None:
     """Return the row with the least or the largest Courant number above 1 of a first-order run, or None."""
     rows = results.atlas[(results.atlas["cfl"] > 1) & (results.atlas["order"] == 1)]
     return None if rows.empty else rows.sort_values(["cfl", "scheme"], ascending=[ascending, True]).iloc[0]
 
 
-def twin(results, row, **values):
+def twin(results: "Results", row: pd.Series, **values: Any) -> pd.Series | None:
     """Return the row of the run that differs in these values alone, or None."""
-    found = results.atlas
-    for key in (
-        *_atlas.USUAL,
-        "a_H",
-        "a_2",
-        "r",
-        "delta",
-        "scene",
-        "scheme",
-        "order",
-        "cells",
-        "boundary",
-        "model",
-    ):
-        found = found[found[key] == values.get(key, row[key])]
-    return found.iloc[0] if len(found) else None
+    rows = results.atlas
+    for key in RUN_KEYS:
+        if key in rows:
+            rows = rows[rows[key] == values.get(key, row[key])]
+    return rows.iloc[0] if len(rows) else None
 
 
-def profile(ax, results, row, look, quantity="h2", at=-1):
-    """Return the time (s) of a profile of a run, which is then in `ax`, over H2."""
+def profile(
+    ax: Axes, results: "Results", row: pd.Series, look: _style.Look, quantity: str = "h2", at: int = -1
+) -> float:
+    """Draw a profile of a run over H2, and return its time (s).
+
+    Parameters
+    ----------
+    ax
+        Panel to draw in.
+    results
+        The study.
+    row
+        Row of the run in the atlas.
+    look
+        Options of the line.
+    quantity
+        Name of the profiles in the record.
+    at
+        Which of them.
+    """
     data = results.record(row["id"]).isel(snapshot=at)
-    ax.plot(data["x"] / row["radius"], data[quantity] / (row["a_2"] * row["radius"]), **look)
+    ax.plot(data["x"] / row["radius"], data[quantity] / _slices.column(row).column_height, **look)
     return float(data["snapshot_time"])
 
 
-def energy(ax, results, row, look):
-    """Nothing; the energy of a run over time is in `ax`, over that of its start."""
+def energy(ax: Axes, results: "Results", row: pd.Series, look: _style.Look) -> None:
+    """Draw the energy of a run over time, over that of its start."""
     data = results.record(row["id"])
     ax.semilogy(data["time"], data["energy"] / float(data["energy"][0]), **look)
     labels(ax, "$t$ (s)", "energy$/E_0$ (1)")
 
 
-def method(row):
+def method(row: pd.Series) -> str:
     """Return a run's scheme and order, in words."""
     return f"{row['scheme'].upper()} of order {row['order']}"
 
 
-def column(row):
+def column_words(row: pd.Series) -> str:
     """Return what tells a run's column apart, in words."""
     return ", ".join(_words.equation(key, row[key]) for key in ("a_H", "r", "delta", "order"))
 
 
-def labels(ax, x, y):
-    """Nothing; both axes have their labels."""
+def labels(ax: Axes, x: str, y: str) -> None:
+    """Label both axes."""
     ax.set_xlabel(x)
     ax.set_ylabel(y)

@@ -1,7 +1,14 @@
 """Stability under a vanishing film of water by friction angle: a map for each scheme and order."""
 
+from typing import TYPE_CHECKING
+
+from matplotlib.figure import Figure
+
 from subslide.figures import _atlas, _style
 from subslide.points import Point
+
+if TYPE_CHECKING:
+    from subslide.results import Results
 
 TITLE = "Where each method lives: a film of water over the column"
 CATEGORY = "8 Stability"
@@ -9,10 +16,21 @@ NEEDS = {"scene": ("cylinder", "shear"), "treatment": ("real", "stop")}
 
 
 @_style.styled
-def draw(results):
-    """Return the figure: error of L_f over delta and a_H, with marks where runs fail."""
+def draw(results: "Results") -> Figure:
+    """Return the figure: error of L_f over delta and a_H, with symbols where runs fail.
+
+    Parameters
+    ----------
+    results
+        A finished study with a stability atlas.
+
+    Returns
+    -------
+    Figure
+        Maps: a row for each order, a column for each scheme.
+    """
     column = {"a_2": Point.a_2, "r": Point.r, "boundary": "wall"}
-    figure, rows, entries = _atlas.maps(results, TITLE, "delta", "a_H", **column)
+    figure, rows, entries = _atlas.maps(results, "delta", "a_H", **column)
     notes = [
         "At $a_H$ = 0 the column touches the surface. Where friction holds a part of the flat top, the film drains "
         "over its edge, and a cell that runs dry beside deeper water can be driven faster and faster."

@@ -1,11 +1,17 @@
 """Errors by the size of cells, in both orders and both precisions, from very coarse to fine grids."""
 
+from typing import TYPE_CHECKING
+
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter, ScalarFormatter
 
+from subslide import naming
 from subslide.figures import _atlas, _style, _words
-from subslide.naming import FINISHED
 from subslide.points import Point
+
+if TYPE_CHECKING:
+    from subslide.results import Results
 
 TITLE = "Errors from 25 to 1600 cells, in double and single precision"
 CATEGORY = "8 Stability"
@@ -19,8 +25,19 @@ LOOKS = {
 
 
 @_style.styled
-def draw(results):
-    """Return the figure: error of L_f over the number of cells, a panel for each column."""
+def draw(results: "Results") -> Figure:
+    """Return the figure: error of L_f over the number of cells, a panel for each column.
+
+    Parameters
+    ----------
+    results
+        A finished study with a stability atlas.
+
+    Returns
+    -------
+    Figure
+        A panel for each column solved in single precision.
+    """
     usual = {key: value for key, value in _atlas.USUAL.items() if key != "dtype"}
     rows = results.atlas
     for key, value in {**usual, "scene": "cylinder", "model": "radial", "scheme": Point.scheme}.items():
@@ -37,8 +54,8 @@ def draw(results):
         for (order, dtype), runs in part.groupby(["order", "dtype"]):
             runs = runs[runs["L_f_error"].notna()].sort_values("cells")
             ax.loglog(runs["cells"], runs["L_f_error"], color=COLORS[order], linewidth=1.0, **LOOKS[dtype])
-        lost = part[~part["status"].isin(FINISHED)]
-        ax.plot(lost["cells"], [0.3] * len(lost), linestyle="", **_atlas.MARKS["failed"])
+        lost = part[~part["status"].isin(naming.FINISHED)]
+        ax.plot(lost["cells"], [0.3] * len(lost), linestyle="", **_atlas.OUTCOMES["failed"])
         ax.set_title(_words.panel(k, ", ".join(_words.equation(key, column[key]) for key in ("a_H", "r"))))
         ax.xaxis.set_major_formatter(ScalarFormatter())
         ax.xaxis.set_minor_formatter(NullFormatter())

@@ -2,12 +2,18 @@
 
 import json
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from subslide import exact
 from subslide.figures import _style, _words
+from subslide.points import Point
+
+if TYPE_CHECKING:
+    from subslide.results import Results
 
 TITLE = "Growth of a wave where hyperbolicity is lost"
 CATEGORY = "8 Stability"
@@ -21,15 +27,26 @@ TREATED = {
 
 
 @_style.styled
-def draw(results):
-    """Return the figure: growth rate over shear, a panel for each r, theory as a line and a symbol for each run."""
+def draw(results: "Results") -> Figure:
+    """Return the figure: growth rate over shear, a panel for each r, theory as a line and a symbol for each run.
+
+    Parameters
+    ----------
+    results
+        A finished study with a stability atlas.
+
+    Returns
+    -------
+    Figure
+        A panel for each r.
+    """
     rows = results.atlas[results.atlas["scene"] == "shear"]
     if rows.empty:
         raise _style.NoRunsError("scene: shear")
     rows = rows.assign(shear=[json.loads(text)["shear"] for text in rows["scene_options"]])
     points = {run.id: run.point for run in results.runs_of_study}
     schemes = list(dict.fromkeys(rows["scheme"]))
-    looks = _style.keys_to(schemes)
+    looks = _style.looks_of(schemes)
     values = sorted(rows["r"].unique())
     figure, axes = _style.panels(len(values), COLUMNS, 2.0, sharex=True)
     for k, (ax, r) in enumerate(zip(axes, values, strict=True)):
@@ -78,7 +95,7 @@ def draw(results):
     return _style.finish(figure, TITLE, about, notes, entries, 5)
 
 
-def symbol(look, order):
+def symbol(look: _style.Look, order: int) -> _style.Look:
     """Return the options of a symbol: open at first order."""
     color = look["color"]
     return {
@@ -90,9 +107,9 @@ def symbol(look, order):
     }
 
 
-def theory(point, largest):
+def theory(point: Point, largest: float) -> tuple[np.ndarray, list[float]]:
     """Return shears over the limit, and the rates (1/s) at which linear theory lets the point's wave grow."""
     x = np.linspace(0.0, largest, 241)
-    own = dict(point.scene_options)
+    options = dict(point.scene_options)
     rate = exact.load("shear").growth_rate
-    return x, [rate(replace(point, scene_options=tuple(sorted({**own, "shear": v}.items())))) for v in x]
+    return x, [rate(replace(point, scene_options=tuple(sorted({**options, "shear": v}.items())))) for v in x]

@@ -1,10 +1,18 @@
 """Errors against exact solutions by the size of cells: a panel for each case, a line for each solver and order."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter, ScalarFormatter
 
 from subslide.figures import _style, _verify, _words
+
+if TYPE_CHECKING:
+    from subslide.results import Results
 
 TITLE = "Errors against exact solutions"
 CATEGORY = "7 Verification"
@@ -13,11 +21,22 @@ COLUMNS = 3
 
 
 @_style.styled
-def draw(results):
-    """Return the figure: relative L1 error against the size of cells, with slopes 1 and 2 in grey."""
+def draw(results: "Results") -> Figure:
+    """Return the figure: relative L1 error against the size of cells, with slopes 1 and 2 in grey.
+
+    Parameters
+    ----------
+    results
+        A finished study with a table of errors.
+
+    Returns
+    -------
+    Figure
+        A panel for each case.
+    """
     cases = _verify.cases(results)
     schemes = list(dict.fromkeys(results.errors["scheme"]))
-    looks = _style.keys_to(schemes)
+    looks = _style.looks_of(schemes)
     figure, axes = _style.panels(len(cases), COLUMNS, 1.85)
     unit = _words.length_unit(0.05)
     for k, (ax, (name, rows)) in enumerate(zip(axes, cases.items(), strict=True)):
@@ -49,7 +68,7 @@ def draw(results):
     )
 
 
-def _look(look, order):
+def _look(look: _style.Look, order: int) -> _style.Look:
     """Return the look of a line: open markers and dashes at first order."""
     first = order == 1
     return {
@@ -62,8 +81,8 @@ def _look(look, order):
     }
 
 
-def _slopes(ax, rows, unit):
-    """Nothing; lines of slopes 1 and 2 run through the middle of the errors of first and of second order."""
+def _slopes(ax: Axes, rows: pd.DataFrame, unit: _words.Unit) -> None:
+    """Draw lines of slopes 1 and 2 through the middle of the errors of first and of second order."""
     x = np.array([rows["dx"].min(), rows["dx"].max()]) * unit.factor
     for order, errors in rows.groupby("order")["error"]:
         middle = np.exp(np.nanmean(np.log(errors.where(errors > 0))))

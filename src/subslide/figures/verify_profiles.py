@@ -1,9 +1,18 @@
 """Profiles against exact solutions: a panel for each case, the coarsest and the finest grid at both orders."""
 
+from typing import TYPE_CHECKING
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from subslide import exact
-from subslide.figures import _slices, _style, _verify, _words
+from subslide.figures import _style, _verify, _words
+from subslide.points import Point
+
+if TYPE_CHECKING:
+    from subslide.results import Results
 
 TITLE = "Profiles against exact solutions"
 CATEGORY = "7 Verification"
@@ -18,11 +27,22 @@ LOOKS = {
 
 
 @_style.styled
-def draw(results):
-    """Return the figure: profiles of one solver at the end of each case, over the exact one."""
+def draw(results: "Results") -> Figure:
+    """Return the figure: profiles of one solver at the end of each case, over the exact one.
+
+    Parameters
+    ----------
+    results
+        A finished study with a table of errors.
+
+    Returns
+    -------
+    Figure
+        A panel for each case.
+    """
     cases = _verify.cases(results)
     table = results.errors
-    scheme = _slices.PREFERRED["scheme"]
+    scheme = Point.scheme
     scheme = scheme if (table["scheme"] == scheme).any() else table["scheme"].iloc[0]
     points = {run.id: run.point for run in results.runs_of_study}
     figure, axes = _style.panels(len(cases), COLUMNS, 1.85)
@@ -37,7 +57,7 @@ def draw(results):
     words = {"coarse": "coarsest cells", "fine": "finest cells"}
     entries = [(Line2D([], [], color="0.75", linewidth=2.8), "exact")]
     entries += [
-        (Line2D([], [], **look), f"{_slices.ORDERS[order]}, {words[grid]}")
+        (Line2D([], [], **look), f"{_words.ORDERS[order]}, {words[grid]}")
         for (order, grid), look in LOOKS.items()
     ]
     notes = [
@@ -49,11 +69,13 @@ def draw(results):
     )
 
 
-def _panel(ax, results, points, rows, quantity, time):
-    """Nothing; the exact profile and those of the coarsest and finest grid are in `ax`."""
+def _panel(
+    ax: Axes, results: "Results", points: dict[str, Point], rows: pd.DataFrame, quantity: str, time: float
+) -> None:
+    """Draw the exact profile of a quantity at a time (s), and those of the coarsest and finest grid."""
     fine = rows.loc[rows["cells"].idxmax()]
     point = points[fine["id"]]
-    height = point.a_2 * point.radius
+    height = point.column_height
     wave = point.scene == "standing_wave"
     size = height * (dict(point.scene_options)["amplitude"] if wave else 1)
     rest = height if wave and quantity == "h2" else 0.0

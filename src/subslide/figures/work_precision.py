@@ -1,12 +1,20 @@
 """Error against seconds for every choice of numerics: a panel for each quantity and depth of water."""
 
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
 
 from subslide.figures import _style, _words
 from subslide.tables.work_precision import reached
+
+if TYPE_CHECKING:
+    from subslide.results import Results
 
 TITLE = "Speed against accuracy"
 CATEGORY = "7 Verification"
@@ -27,14 +35,25 @@ MOST_COLUMNS = 3
 
 
 @_style.styled
-def draw(results):
-    """Return the figure: errors in per cent against seconds of the time loop, both on logarithmic scales."""
+def draw(results: "Results") -> Figure:
+    """Return the figure: errors in per cent against seconds of the time loop, both on logarithmic scales.
+
+    Parameters
+    ----------
+    results
+        A finished study that sweeps numerics.
+
+    Returns
+    -------
+    Figure
+        A panel for each quantity and depth of water.
+    """
     table = results.work_precision
     if table.empty:
         raise _style.NoRunsError("a sweep of numerics with a converged answer")
     places = table[["a_H", "a_2", "r", "delta"]].drop_duplicates()
     shown = places.head(MOST_COLUMNS)
-    looks = _style.keys_to(dict.fromkeys(table["scheme"]), palette="viridis", light=0.9)
+    looks = _style.looks_of(dict.fromkeys(table["scheme"]), palette="viridis", light=0.9)
     figure, axes = _style.panels(len(QUANTITIES) * len(shown), len(shown), 2.1, sharex=True, sharey="row")
     for k, ax in enumerate(axes):
         quantity, place = list(QUANTITIES)[k // len(shown)], shown.iloc[k % len(shown)]
@@ -60,8 +79,8 @@ def draw(results):
     )
 
 
-def _panel(ax, rows, looks):
-    """Nothing; all runs are in `ax` as symbols, and on them the front, the two methods and the factors between."""
+def _panel(ax: Axes, rows: pd.DataFrame, looks: dict[str, _style.Look]) -> None:
+    """Draw all runs as symbols, and on them the front, the two methods and the factors between."""
     ax.set(xscale="log", yscale="log")
     rows = rows[rows["sure_error"].notna()]
     for (scheme, model, order), some in rows.groupby(["scheme", "model", "order"]):
@@ -74,8 +93,8 @@ def _panel(ax, rows, looks):
         if not some.empty:
             order, model = some[["order", "model"]].iloc[0]
             ax.plot(some["seconds"], 100 * some["sure_error"], color=line["color"], linewidth=1.2, zorder=4)
-            mark = _symbol(line["color"], model, order) | {"markersize": 3.6, "zorder": 5}
-            ax.plot(some["seconds"], 100 * some["sure_error"], **mark)
+            symbol = _symbol(line["color"], model, order) | {"markersize": 3.6, "zorder": 5}
+            ax.plot(some["seconds"], 100 * some["sure_error"], **symbol)
             _counts(ax, some, line["color"], name)
     _factors(ax, rows)
     low = 100 * rows["uncertainty"].max()
@@ -87,8 +106,8 @@ def _panel(ax, rows, looks):
     ax.xaxis.set_major_locator(LogLocator(numticks=12))
 
 
-def _counts(ax, rows, color, name):
-    """Nothing; cells of some runs of a method stand beside their symbols."""
+def _counts(ax: Axes, rows: pd.DataFrame, color: str, name: str) -> None:
+    """Write the cells of some runs of a method beside their symbols."""
     for _, row in rows.iterrows():
         if name == "paper" or row["cells"] in (25, 100, 400, 1600, 6400, 25600):
             ax.annotate(
@@ -102,8 +121,8 @@ def _counts(ax, rows, color, name):
             )
 
 
-def _factors(ax, rows):
-    """Nothing; an arrow at the error of the paper's method on its finest grid leads to the default numerics."""
+def _factors(ax: Axes, rows: pd.DataFrame) -> None:
+    """Draw an arrow, at the error of the paper's method on its finest grid, to the default numerics."""
     color = STRONG["paper"]["color"]
     for _, row in _reached(rows).tail(1).iterrows():
         height, right = 100 * row["sure_error"], row["seconds"]
@@ -123,13 +142,13 @@ def _factors(ax, rows):
         )
 
 
-def _reached(rows):
+def _reached(rows: pd.DataFrame) -> pd.DataFrame:
     """Return the runs of the paper's method whose error counts, and that have a factor."""
-    found = reached(rows)
-    return found[found["factor"].notna()]
+    compared = reached(rows)
+    return compared[compared["factor"].notna()]
 
 
-def _round(value):
+def _round(value: float) -> int:
     """Return a factor to two digits, rounded down."""
     digits = 10 ** max(int(np.floor(np.log10(value))) - 1, 0)
     return int(value // digits * digits)
@@ -138,7 +157,7 @@ def _round(value):
 _FRONT = {"color": "#f2a900", "linewidth": 3.5, "alpha": 0.75, "zorder": 1, "solid_capstyle": "round"}
 
 
-def _symbol(color, model, order):
+def _symbol(color: Any, model: str, order: int) -> _style.Look:
     """Return the look of a run: its marker says the model, filled means second order."""
     return {
         "marker": MODELS.get(model, "D"),
@@ -150,7 +169,7 @@ def _symbol(color, model, order):
     }
 
 
-def _entries(looks, table):
+def _entries(looks: dict[str, _style.Look], table: pd.DataFrame) -> list[_style.Entry]:
     """Return the entries of the legend for symbols."""
     schemes = [
         (Line2D([], [], **_symbol(look["color"], "radial", 2) | {"markersize": 5}), scheme.upper())
@@ -168,7 +187,7 @@ def _entries(looks, table):
     return schemes + models + orders
 
 
-def _lines():
+def _lines() -> list[_style.Entry]:
     """Return the entries of the legend for lines and shades."""
     lines = [
         (Line2D([], [], color=line["color"], marker="o", linewidth=1.2), f"{line['label']} (cells beside it)")
@@ -178,7 +197,7 @@ def _lines():
     return [*lines, front, (Patch(color="0.93"), "below the uncertainty of the converged answer")]
 
 
-def _notes(table, hidden):
+def _notes(table: pd.DataFrame, hidden: int) -> list[str]:
     """Return the notes: what is drawn, what failed, what is left out."""
     once = table.drop_duplicates("id")
     failed = once[once["status"] != "ok"]["status"].value_counts()
