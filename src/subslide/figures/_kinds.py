@@ -195,5 +195,5 @@ def ratios(kinds: list[Kind], values: Callable[[Kind], pd.Series]) -> tuple[floa
 
 def percent(low: float, high: float) -> str:
     """Return 'low to high %' of two fractions, or one number where they read the same."""
-    low, high = f"{100 * low:.3g}", f"{100 * high:.3g}"
-    return f"{low} %" if low == high else f"{low} to {high} %"
+    least, most = f"{100 * low:.3g}", f"{100 * high:.3g}"
+    return f"{least} %" if least == most else f"{least} to {most} %"

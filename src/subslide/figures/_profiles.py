@@ -72,7 +72,7 @@ def times_of(runs: Iterable[list[Profile]], most: int) -> list[float]:
 
 def together(profiles: list[Profile], tolerance: float) -> list[list[Profile]]:
     """Return the profiles in groups, each within `tolerance` (m) of the first of its group."""
-    groups = []
+    groups: list[list[Profile]] = []
     for profile in profiles:
         same = groups and np.allclose(groups[-1][0].values, profile.values, rtol=0, atol=tolerance)
         groups[-1].append(profile) if same else groups.append([profile])

@@ -2,7 +2,7 @@
 
 import functools
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
@@ -106,14 +106,14 @@ def panels(count: int, columns: int, height: float, **options: Any) -> tuple[Fig
 
 
 def looks_of(
-    values: Iterable, palette: str = "viridis", dark: float = 0.0, light: float = 0.82
+    values: Collection, palette: str = "viridis", dark: float = 0.0, light: float = 0.82
 ) -> dict[Any, Look]:
     """Return the look of each value: shade, dashes and marker, told apart in grey and by eyes that see few colours.
 
     Parameters
     ----------
     values
-        Values to tell apart, with a length.
+        Values to tell apart.
     palette
         Name of a colour map.
     dark, light
@@ -147,7 +147,7 @@ def handles(looks: dict[Any, Look], key: str, markers: bool = True, dashes: bool
     markers, dashes
         Whether curves have markers and dashes of their own.
     """
-    options = {"markeredgewidth": 0} if markers else {"marker": ""}
+    options: Look = {"markeredgewidth": 0} if markers else {"marker": ""}
     if not dashes:
         options["linestyle"] = "-"
     return [
@@ -216,7 +216,8 @@ def finish(
 
 def _wrapped(text: str, width: int) -> list[str]:
     """Return lines of up to `width` characters as they are seen: marks of mathematics take no room."""
-    lines, room = [[]], width
+    lines: list[list[str]] = [[]]
+    room = width
     for word in text.split():
         seen = len(re.sub(r"[$_{}]|\\[a-z]*", "", word)) + 1
         if seen > room:

@@ -1,6 +1,7 @@
 """Runs that have a water surface, and when waves reach the edge of the box."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,7 +36,7 @@ def edge_time(row: pd.Series) -> float:
 
 
 def convergence(
-    results: "Results", kinds: list[_kinds.Kind], times: Sequence[float], unit: _words.Unit
+    results: "Results", kinds: list[_kinds.Kind], times: Iterable[float], unit: _words.Unit
 ) -> list[str]:
     """Return the notes on how far waves are from converged, in numbers of these runs.
 
@@ -51,7 +52,7 @@ def convergence(
         Unit of times in the notes.
     """
     notes = _kinds.note(kinds, ("max_abs_eta", OUTSIDE), "values")
-    ratios = {time: _kinds.ratios(kinds, lambda kind, t=time: _heights(results, kind, t)) for time in times}
+    ratios = {time: _kinds.ratios(kinds, partial(_heights, results, time=time)) for time in times}
     words = [f"{_kinds.percent(*r)} at {_words.moment(time, unit)}" for time, r in ratios.items() if r]
     if words:
         notes.append(
@@ -65,7 +66,7 @@ def convergence(
     return notes
 
 
-def beside(results: "Results", chosen: _slices.Slice, times: Sequence[float], unit: _words.Unit) -> list[str]:
+def beside(results: "Results", chosen: _slices.Slice, times: Iterable[float], unit: _words.Unit) -> list[str]:
     """Return the notes on the convergence of waves in a figure that draws one kind of numerics alone.
 
     With the paper's numerics and a resolved answer in the study, they are compared.

@@ -12,7 +12,6 @@ if TYPE_CHECKING:
 
 TITLE = "Depth of the grains along x, for each ratio of densities r"
 CATEGORY = "1 Shape of the grains"
-NEEDS = {}
 
 
 @_style.styled

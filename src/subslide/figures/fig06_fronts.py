@@ -12,7 +12,6 @@ if TYPE_CHECKING:
 
 TITLE = "Front of the grains against time, and its final length"
 CATEGORY = "2 Front of the grains"
-NEEDS = {}
 
 
 @_style.styled

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
 TITLE = "Largest displacement of the water surface against time"
 CATEGORY = "3 Water surface"
-NEEDS = {}
 
 ROWS = {"max_abs_eta": "whole box", "max_abs_eta_outside": "beyond $R$"}
 
@@ -88,8 +87,8 @@ def _logarithmic(
 ) -> None:
     """Set a logarithmic scale on each row of panels that holds every value after half the first of `times`."""
     for k, quantity in enumerate(curves.values()):
-        seen = [value[(time >= times[0] / 2) & (value > 0)] for time, value in quantity.values()]
-        seen = np.concatenate([np.empty(0), *seen]) * unit.factor
+        late = [value[(time >= times[0] / 2) & (value > 0)] for time, value in quantity.values()]
+        seen = np.concatenate([np.empty(0), *late]) * unit.factor
         for ax in axes[k * columns : (k + 1) * columns]:
             ax.set_yscale("log")
             if seen.size:

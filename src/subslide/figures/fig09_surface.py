@@ -13,7 +13,6 @@ if TYPE_CHECKING:
 
 TITLE = "Water surface along x at the paper's times"
 CATEGORY = "3 Water surface"
-NEEDS = {}
 
 
 @_style.styled

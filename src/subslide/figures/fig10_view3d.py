@@ -62,7 +62,8 @@ def draw(results: "Results") -> Figure:
     options = {"projection": "3d", "computed_zorder": False}
     figure, axes = _style.panels(len(times), min(2, len(times)), 2.6, subplot_kw=options)
     for k, (ax, time) in enumerate(zip(axes, times, strict=True)):
-        pile = _profiles.at(grains, time)
+        pile, surface = _profiles.at(grains, time), water[k]
+        assert pile is not None  # the times are those of its profiles
         x, y, z = _turned(pile, radius, _profiles.reach([pile], 1e-3 * height), np.linspace(2 * np.pi, 0, 97))
         shades = GRAINS(z / height)
         _surface(
@@ -75,8 +76,8 @@ def draw(results: "Results") -> Figure:
             lightsource=LIGHT,
             zorder=1,
         )
-        if water[k] is not None:
-            x, y, z = _turned(water[k], radius, water[k].x[-1], np.linspace(OPEN[1], OPEN[0] + 2 * np.pi, 81))
+        if surface is not None:
+            x, y, z = _turned(surface, radius, surface.x[-1], np.linspace(OPEN[1], OPEN[0] + 2 * np.pi, 81))
             x, y, lifted = x * x_unit.factor, y * x_unit.factor, (level + scale * z) * unit.factor
             _surface(ax, x, y, lifted, WATER(norm(z * unit.factor)), shade=False, alpha=0.9, zorder=2)
             _edges(ax, x, y, lifted)
