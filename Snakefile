@@ -8,6 +8,10 @@ from subslide.keys.schema import ConfigError
 from subslide.study import batches
 from subslide.study.config import make_study
 
+
+report: "workflow/report/workflow.rst"
+
+
 if not workflow.overwrite_configfiles:  # never merged with a file that the user gives
 
     configfile: "config/paper.yaml"

@@ -116,7 +116,11 @@ class Point(Values):
 
     @property
     def friction_number(self) -> float:
-        """Number m = tan(delta)/a_2 by which Coulomb friction enters the scaled equations: scaled deceleration."""
+        """Number m = tan(delta)/a_2 by which Coulomb friction enters the scaled equations: scaled deceleration.
+
+        Deviation from the friction of the scaled system in section 4: a_2 tan(delta) is printed. Dividing g (1-r) h2
+        tan(delta) by g H2^2 / R leaves tan(delta)/a_2.
+        """
         return math.tan(math.radians(self.delta)) / self.a_2
 
     @property

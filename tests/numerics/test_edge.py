@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from states import advance, axial
 from states import settings as numbers
 from test_waves import matrix
 
@@ -12,7 +13,7 @@ from subslide.kernels.edge.grains import grain_edge_fluxes
 from subslide.kernels.edge.roe_matrix import Jump, Normal, RoeMatrix, times
 from subslide.kernels.edge.two_layers import edge_fluxes
 from subslide.kernels.viscosity.roe import roe
-from subslide.kernels.waves import Waves, inner_speeds, outer_speeds
+from subslide.kernels.waves import Waves, inner_speeds, outer_bounds, outer_speeds
 from subslide.keys.names import SCHEMES
 
 depths = st.floats(1e-3, 10.0)
@@ -170,6 +171,54 @@ def test_a_mirrored_edge_has_mirrored_fluxes_to_the_bit(scheme, w_i, w_j, r, stu
     other, push = fluxes(scheme, r, mirrored(w_j), mirrored(w_i), stuck)
     np.testing.assert_array_equal(other, flux * [-1, 1, -1, 1])
     np.testing.assert_array_equal(push, -pressure)
+
+
+@settings(deadline=None)
+@given(h_i=st.tuples(depths, depths), h_j=st.tuples(depths, depths), r=ratios)
+def test_a_stuck_edge_sees_the_jump_less_what_friction_holds(h_i, h_j, r):
+    """Eq. (8) with the inverse of the matrix at rest, and friction as large as the slope of the grains asks for."""
+    w_i, w_j = (h_i[0], 0.0, h_i[1], 0.0), (h_j[0], 0.0, h_j[1], 0.0)
+    a = matrix(*roe_mean(w_i, w_j), r)
+    d = conserved(w_j) - conserved(w_i)
+    friction = (1 - r) * (h_i[1] + h_j[1]) / 2 * d[2]
+    seen = d - np.linalg.solve(a, [0, 0, 0, friction])
+    bounds = np.array([outer_speeds(*w, r) for w in (w_i, w_j, roe_mean(w_i, w_j))])
+    a0, a1, _ = alpha("hll", bounds[:, 0].min(), 0.0, bounds[:, 1].max())
+    viscous = a0 * seen + a1 * a @ seen
+    flux, pressure = fluxes("hll", r, w_i, w_j, stuck=True)
+    scale = 1e-9 * (1 + np.abs(d).max() ** 2 + np.abs(a).max() ** 2)
+    np.testing.assert_allclose(flux, -viscous / 2, atol=scale)
+    np.testing.assert_allclose(pressure, a @ d, atol=scale)
+
+
+def test_an_edge_takes_the_bounds_of_both_its_cells():
+    """HLL between two cells, the second of which has both the slowest and the fastest wave, and turned round."""
+    states = np.array([(1.0, 0.0, 0.1, 0.0), (0.8, -0.2, 3.0, -0.1)])
+    own = [outer_bounds(*w, 0.4) for w in states]
+    assert own[1][0] < own[0][0] < 0 < own[0][1] < own[1][1]
+    for turn in (1, -1):
+        w_i, w_j = states[::turn]
+        model = axial(np.arange(3) * 0.1, *states[::turn].T, level=2.0, scheme="hll", exact_front=False)
+        advance(model, steps=1)
+        s_l, s_r = own[1]
+        passed = (s_r * w_i[::2] * w_i[1::2] - s_l * w_j[::2] * w_j[1::2] + s_l * s_r * (w_j - w_i)[::2]) / (
+            s_r - s_l
+        )
+        np.testing.assert_allclose([model.fluxes.f1[1], model.fluxes.f2[1]], passed, rtol=1e-12)
+
+
+@pytest.mark.parametrize("layer", [0, 2])
+def test_a_film_up_to_the_dry_depth_takes_hll(layer):
+    def differs(depth):
+        w = [0.5, 0.3, 0.5, -0.1]
+        w[layer] = depth
+        pairs = [
+            fluxes(scheme, 0.4, w, (0.6, 0.1, 0.4, 0.2), exact_front=False)[0] for scheme in ("ifcph", "hll")
+        ]
+        return not np.array_equal(*pairs)
+
+    assert not differs(1e-6)
+    assert differs(1.1e-6)
 
 
 def test_no_grain_passes_a_stuck_edge_even_under_a_wave():

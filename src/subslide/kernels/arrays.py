@@ -1,8 +1,10 @@
 """The arrays that kernels work on.
 
 All are padded by GHOSTS cells on each side and scaled: depths by H2, lengths by R, speeds by sqrt(g H2), time by
-R / sqrt(g H2), so that g = 1 and every threshold is a plain number. Deviation from section 4 of the paper, which scales
-both layers by H1.
+R / sqrt(g H2), so that g = 1 and every threshold is a plain number.
+
+Deviation from the scaling in section 4: there depths are printed over H1, speeds over sqrt(g H1) and time over
+sqrt(R / g), which is not what the system below them is scaled by.
 
 Along a row of n cells, states stand in cells, reconstructed states at the two faces of each cell, and fluxes at edges.
 Edge k is between its two cells, and between the right face of the one and the left face of the other:

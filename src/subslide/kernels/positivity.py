@@ -7,8 +7,10 @@ from subslide.kernels.jit import inlined
 def share(depth, outflow, margin):
     """Return the fraction of its outflow that a cell can feed within a step (draining time, Bollermann et al. 2011).
 
-    `outflow` is the depth that would leave. IFCP beside a thin cell can drain it thousands of times faster than any
-    CFL number allows; `margin` (a small fraction of the depth, left behind) covers round-off.
+    `outflow` is the depth that would leave; `margin` (a small fraction of the depth, left behind) covers round-off.
+
+    Deviation from Eq. (6): what leaves through an edge is cut to this fraction of its donor. IFCP beside a thin cell
+    can drain it thousands of times faster than any CFL number allows.
     """
     real = type(depth)
     available = depth * (real(1) - margin)
@@ -19,8 +21,11 @@ def share(depth, outflow, margin):
 def donor(flux, before, after):
     """Return the value on the side that a flux comes from.
 
-    Deviation from Eq. (13), which prints the sides the other way round (and h_{2,i} twice): S* comes from the mass
-    flux out of K_i, so S* > 0 takes K_i.
+    Deviation from Eq. (13): the sides are printed the other way round. S* comes from the mass flux out of K_i, so that
+    S* > 0 takes K_i.
+
+    Deviation from the second line of Eq. (13): the momentum of K_j is printed over h_2,i, and is over h_2,j here.
+
     As an argument each is loaded whatever the flux; a load inside a condition would keep the loop scalar.
     """
     return before if flux > type(flux)(0) else after

@@ -17,8 +17,10 @@ def front_fluxes(r, h_i, u_i, h_j, u_j):
 
     The edge lies in the fan of a dam break (Ritter 1892; Toro 2001, section 6.3): there u* = (w + 2 c) / 3 = sqrt(g
     (1-r) h*) where the outward velocity w is below c = sqrt(g (1-r) h), else the state of the wet side. The momentum
-    flux is less half the pressure product, which acts apart. (Deviation from the paper's HLL, which spreads a front
-    at the speed of the water's waves: it lags two to four times as far.)
+    flux is less half the pressure product, which acts apart.
+
+    Deviation from the wet/dry case under Eq. (12): HLL there spreads a front at the speed of the water's waves, and it
+    lags two to four times as far.
     """
     real = type(r)
     third = real(1.0 / 3.0)

@@ -1,4 +1,10 @@
-"""Edges at which friction holds the grains of both sides at rest: what the viscosity sees there."""
+"""Edges at which friction holds the grains of both sides at rest: what the viscosity sees there.
+
+At rest A^-1 (0, 0, 0, s) = (-s, 0, s, 0) / (g (1-r) h2). With the friction that the grains' own slope asks for,
+s d_ij = g (1-r) h2 d(h2), the d - A^-1 S d_ij of Eq. (8) is (d(h1 + h2), d(q1), 0, d(q2)).
+
+Deviation from S_1,T and S_2,T above Eq. (4): printed with four rows, they have six, friction in the fifth and sixth.
+"""
 
 from subslide.kernels.arrays import is_general
 from subslide.kernels.friction.coulomb import holds

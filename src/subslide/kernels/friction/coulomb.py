@@ -23,8 +23,11 @@ def holds(reach, bound, speed_squared, push_squared):
     stopped when all its edges are stuck, so that fronts that outrun friction never freeze. Without it a first-order
     pile creeps for ever, and at second order single cells keep trembling.
 
-    Deviation from the rest condition under Eq. (8) and in Theorem 3.1, garbled in print: the length of the gradient
-    is compared with mu, under a flat surface |grad h2| <= mu.
+    Deviation from the rest condition under Eq. (8): garbled in print. The length of the gradient is compared with mu,
+    under a flat surface |grad h2| <= mu.
+
+    Deviation from Theorem 3.1: printed is a root mean square of a cell's four slopes over |K_i|, an area too many.
+    Each edge is judged on its own: the mean let a cone of 0.999 mu move at second order.
     """
     return speed_squared <= reach * reach and push_squared <= bound * bound
 
@@ -33,7 +36,7 @@ def holds(reach, bound, speed_squared, push_squared):
 def coulomb(reach, speed, held):
     """Return the factor that Coulomb friction leaves of a velocity: max(0, 1 - dt g (1-r) mu / |u|).
 
-    Deviation from the paper's step, which compares m/s with m/s2 and never lets the pile stop.
+    Deviation from the friction step under Eq. (6): printed, m/s are compared with m/s2, and the pile never stops.
     """
     real = type(speed)
     moving = speed > reach and held == real(0)

@@ -10,7 +10,11 @@ EXACT_FRONT = True
 
 @inlined
 def alpha(waves, dry):
-    """Return alpha0..2: Eq. (10), or those of HLL below Eq. (12) at wet/dry edges."""
+    """Return alpha0..2: Eq. (10), or those of HLL below Eq. (12) at wet/dry edges.
+
+    Deviation from the wet/dry case under Eq. (12): a layer is dry up to `Settings.dry_depth`, where print has zero.
+    In thinner films velocities are cut off, and the inner speeds mean nothing.
+    """
     a0, a1, a2 = ifcp(waves, dry)
     b0, b1, b2 = hll(waves, dry)
     return (b0 if dry else a0), (b1 if dry else a1), (b2 if dry else a2)
