@@ -62,7 +62,7 @@ def test_printed_upwinding_lets_ripples_of_the_tangential_velocity_grow():
         options = {
             "as_printed": FLAGS[name],
             "treatment": 1,
-            "friction": 0.0,
+            "m": 0.0,
             "walls": (2,) * 4,
             "level": 2.0,
         }

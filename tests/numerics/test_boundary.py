@@ -22,7 +22,7 @@ def layers(shape, dry, seed=3):
 
 def on_a_line(order, dry, shift=0):
     h1, h2, (u1, u2, *_) = (np.roll(values, shift, axis=-1) for values in layers((N,), dry))
-    options = {"order": order, "r": R, "friction": 0.0 if not dry else 0.5, "level": 1.5, "scheme": "ifcp"}
+    options = {"order": order, "r": R, "m": 0.0 if not dry else 0.5, "level": 1.5, "scheme": "ifcp"}
     return axial(EDGES, h1, u1, h2, u2, walls=(PERIODIC, PERIODIC), **options)
 
 
@@ -30,7 +30,7 @@ def in_the_plane(order, dry, shift=(0, 0)):
     h1, h2, u = layers((24, 24), dry)
     h1, h2, *u = (np.roll(values, shift, axis=(0, 1)) for values in (h1, h2, *u))
     velocities = dict(zip(("u1", "u2", "v1", "v2"), u, strict=True))
-    options = {"order": order, "r": R, "friction": 0.5 if dry else 0.0, "level": 1.5, "scheme": "ifcp"}
+    options = {"order": order, "r": R, "m": 0.5 if dry else 0.0, "level": 1.5, "scheme": "ifcp"}
     return plane(EDGES[:25], h1, h2, walls=(PERIODIC,) * 4, **velocities, **options)
 
 

@@ -81,7 +81,7 @@ def momentum(model):
     )
 
 
-RUB = {"treatment": TREATMENTS["friction"], "r": R, "friction": 0.0, "walls": (2, 2), "level": 2.0}
+RUB = {"treatment": TREATMENTS["friction"], "r": R, "m": 0.0, "walls": (2, 2), "level": 2.0}
 
 
 @pytest.mark.parametrize("part", [0.9, 1.0001, 1.5, 2.5])
