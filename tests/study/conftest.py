@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from subslide import naming
 from subslide.points import Point
 from subslide.results import Results
 from subslide.tables import _write
@@ -21,6 +22,10 @@ def made_up_run(point: Point, steps: int = 20, grown: int = 0, **changes) -> Sim
     front = np.outer([1.2, 1.1, 1.0], point.radius * (1 + time))
     snapshots = np.array([0, 0.5, 1.0])
     run = SimpleNamespace(
+        **{name: np.zeros(steps + 1) for name in naming.SERIES},
+        **dict.fromkeys(naming.SCALARS, 0.0),
+    )
+    vars(run).update(
         point=point,
         model="radial" if point.model == "auto" else point.model,
         model_reason="made up",
@@ -33,7 +38,6 @@ def made_up_run(point: Point, steps: int = 20, grown: int = 0, **changes) -> Sim
         sediment_volume=np.full(steps + 1, 2.0),
         water_volume=np.full(steps + 1, 3.0),
         energy=3 - time,
-        nonhyperbolic_cells=np.zeros(steps + 1),
         hyperbolic_margin=np.ones(steps + 1),
         snapshot_time=snapshots,
         h2=np.tile(height * np.exp(-(x**2)), (3, 1)),
