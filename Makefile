@@ -28,7 +28,12 @@ test: $(READY)  ## set up, then lint, format, types and every test
 	@# the plane's kernels beside the others': each compiles on one core
 	$(BIN)/subslide warm quarter:float64 plane:float64 & plane=$$!; \
 		$(BIN)/subslide warm radial:float64 one-layer:float64 radial:float64:general && wait $$plane
+	@$(MAKE) --no-print-directory test-interpreted
 	$(BIN)/python -m pytest -n auto --dist loadgroup $(PYTEST_OPTIONS)
+
+.PHONY: test-interpreted
+test-interpreted: $(READY)  ## small runs with the compiler off: kernels within their arrays, tracebacks that name the line
+	NUMBA_DISABLE_JIT=1 $(BIN)/python -m pytest -q tests/interpreted
 
 .PHONY: test-all
 test-all: $(READY)  ## every test and the long lanes: thousands of random points

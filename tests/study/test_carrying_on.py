@@ -49,7 +49,9 @@ def changed(text: str, lines: list[str]) -> str:
     """Return a text after a change: lines that begin with '+' come, with '-' go, with a space say where."""
     before = "\n".join(line[1:] for line in lines if line[0] in " -")
     after = "\n".join(line[1:] for line in lines if line[0] in " +")
-    assert text.count(before) == 1, f"CONTRIBUTING.md changes what is there {text.count(before)} times:\n{before}"
+    assert text.count(before) == 1, (
+        f"CONTRIBUTING.md changes what is there {text.count(before)} times:\n{before}"
+    )
     return text.replace(before, after)
 
 
@@ -151,7 +153,10 @@ def test_the_pages_tell_what_is_new(copy):
 
 def test_every_run_ends_as_the_new_key_says(results):
     runs = pd.read_csv(results / "tables/runs.csv")
-    assert runs.groupby("rest_cap")["status"].agg(list).to_dict() == {0.8: ["not_at_rest"] * 4, 60: ["ok"] * 4}
+    assert runs.groupby("rest_cap")["status"].agg(list).to_dict() == {
+        0.8: ["not_at_rest"] * 4,
+        60: ["ok"] * 4,
+    }
     assert set(runs["scheme"]) == {"pvm2u"}
     assert set(runs["friction"]) == {"viscous"}
     assert set(runs["resolved_model"]) == {"radial"}
