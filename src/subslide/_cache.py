@@ -43,8 +43,8 @@ def _roots() -> list[Path]:
     roots = []
     if given:
         # A child process inherits the folder that its parent has set.
-        given = Path(given)
-        roots.append(given.parent if given.name.startswith(PREFIX) else given)
+        folder = Path(given)
+        roots.append(folder.parent if folder.name.startswith(PREFIX) else folder)
     home = os.environ.get("XDG_CACHE_HOME")
     with contextlib.suppress(RuntimeError):
         roots.append((Path(home) if home else Path.home() / ".cache") / "subslide")

@@ -70,7 +70,9 @@ def _imports(room: str, name: str) -> set[str]:
     """Return the modules of a room that one of its modules imports itself, wherever it does so."""
     modules = set()
     for node in ast.walk(ast.parse(_module(room, name).read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and f"{node.module}.".startswith(f"subslide.{room}."):
+        if not isinstance(node, ast.ImportFrom) or node.module is None:
+            continue
+        if f"{node.module}.".startswith(f"subslide.{room}."):
             base = node.module.split(".")[2:]
             for parts in (base, *([*base, alias.name] for alias in node.names)):
                 path = "/".join(parts)

@@ -62,21 +62,32 @@ def table(name: str) -> Table:
 def literals(room: str, name: str) -> dict[str, Any]:
     """Return the constants of a plug-in, by name, whose values are literals in its source."""
     constants = {}
-    for statement in _tree(PACKAGE / room / f"{name}.py").body:
-        if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Name):
-            try:
-                constants[statement.targets[0].id] = ast.literal_eval(statement.value)
-            except ValueError:
-                continue
+    for constant, value in _constants(room, name).items():
+        try:
+            constants[constant] = ast.literal_eval(value)
+        except ValueError:
+            continue
     return constants
 
 
 def columns(name: str) -> list[str]:
     """Return the columns of a table whose names its module states as they are."""
-    for statement in _tree(PACKAGE / "tables" / f"{name}.py").body:
-        if isinstance(statement, ast.Assign) and getattr(statement.targets[0], "id", "") == "COLUMNS":
-            return [key.value for key in statement.value.keys if isinstance(key, ast.Constant)]
-    raise ValueError(f"the table {name} has no COLUMNS")
+    stated = _constants("tables", name).get("COLUMNS")
+    if not isinstance(stated, ast.Dict):
+        raise ValueError(f"the table {name} has no COLUMNS")
+    return [str(key.value) for key in stated.keys if isinstance(key, ast.Constant)]
+
+
+def _constants(room: str, name: str) -> dict[str, ast.expr]:
+    """Return the expression that a plug-in's source gives each of its constants, with or without a type, by name."""
+    constants = {}
+    for statement in _tree(PACKAGE / room / f"{name}.py").body:
+        if not isinstance(statement, ast.Assign | ast.AnnAssign) or statement.value is None:
+            continue
+        target = statement.targets[0] if isinstance(statement, ast.Assign) else statement.target
+        if isinstance(target, ast.Name):
+            constants[target.id] = statement.value
+    return constants
 
 
 @functools.cache

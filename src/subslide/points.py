@@ -57,14 +57,18 @@ if TYPE_CHECKING:
     class Defaults(type):
         """Defaults of the values of a run, as attributes of the class."""
 
-        def __getattr__(cls, key: str) -> Any: ...
+        def __getattr__(cls, key: str) -> Any:
+            """Return the default of a key."""
 
     @dataclass(frozen=True, init=False)
     class Values(metaclass=Defaults):
         """Values of a run by key: whatever has an entry in `subslide.keys.entries`."""
 
-        def __init__(self, **values: Any) -> None: ...
-        def __getattr__(self, key: str) -> Any: ...
+        def __init__(self, **values: Any) -> None:
+            """Take values by key, and defaults for the others."""
+
+        def __getattr__(self, key: str) -> Any:
+            """Return the value of a key."""
 
 else:
     Values = make_dataclass("Values", [(key, Any, default_of(key)) for key in RUN_KEYS], frozen=True)
@@ -74,7 +78,7 @@ class Point(Values):
     """One run: all that its answer depends on, a value for each of `RUN_KEYS`, and what follows from them.
 
     Lengths are in m, times in s, angles in degrees; what is scaled is so by R along x, H2 = a_2 R for depths, and
-    sqrt(g H2) for speeds. A point cannot be changed; `dataclasses.replace` makes another one. ``scene_options`` are
+    sqrt(g H2) for speeds. A point cannot be changed; `with_values` makes another one. ``scene_options`` are
     sorted pairs of name and value. Where a key takes a word beside numbers, None stands for the word: a ``t_end`` of
     None means until rest, ``snapshot_times`` of None the paper's times, scaled by sqrt(R).
     """
@@ -163,7 +167,28 @@ class Point(Values):
     @property
     def similarity_key(self) -> tuple[float, float, float]:
         """Numbers (a_H, r, m) to 12 digits: runs that share them, and their numerics, have the same scaled answer."""
-        return tuple(float(f"{value:.12g}") for value in (self.a_H, self.r, self.friction_number))
+        a_H, r, m = (float(f"{value:.12g}") for value in (self.a_H, self.r, self.friction_number))
+        return a_H, r, m
+
+    def with_values(self, **values: Any) -> "Point":
+        """Return a point that differs from this one in some values.
+
+        Parameters
+        ----------
+        values
+            New values by key of `RUN_KEYS`, as a point holds them.
+
+        Returns
+        -------
+        Point
+            The other point.
+
+        Raises
+        ------
+        TypeError
+            If a run has no such key.
+        """
+        return Point(**{key: getattr(self, key) for key in RUN_KEYS} | values)
 
 
 def canonical(point: Point) -> str:

@@ -6,7 +6,7 @@ import json
 import math
 from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, overload
 
 import numpy as np
 
@@ -40,6 +40,9 @@ class Companion(NamedTuple):
     role: str
     point: Point
     batch: str
+
+
+Solved = TypeVar("Solved", bound=StudyRun | Companion)
 
 
 class Results:
@@ -78,6 +81,12 @@ class Results:
                 f"{path}: there is no such file; allowed: the folder of a study that was run"
             ) from None
 
+    @overload
+    def each(self, *names: str, among: None = None) -> Iterator[tuple[StudyRun, dict[str, Any]]]: ...
+
+    @overload
+    def each(self, *names: str, among: Iterable[Solved]) -> Iterator[tuple[Solved, dict[str, Any]]]: ...
+
     def each(
         self, *names: str, among: Iterable[StudyRun | Companion] | None = None
     ) -> Iterator[tuple[StudyRun | Companion, dict[str, Any]]]:
@@ -109,7 +118,8 @@ class Results:
         size = sum(path.stat().st_size for path in paths.values() if path.exists())
         count = max(1, math.ceil(len(runs) / max(1, math.ceil(size / MOST_BYTES))))
         for first in range(0, len(runs), count):
-            part, held = runs[first : first + count], {}
+            part = runs[first : first + count]
+            held: dict[str, dict[str, Any]] = {}
             for batch in dict.fromkeys(run.batch for run in part):
                 ids = {run.id for run in part if run.batch == batch}
                 held |= _of_runs(paths[batch], ids, names)
@@ -203,7 +213,7 @@ class Results:
         """Return the Courant numbers that were tried, of a study that draws the atlas."""
         return self.table("cfl")
 
-    def select(self, **values) -> "pd.DataFrame":
+    def select(self, **values: Any) -> "pd.DataFrame":
         """Return the rows of the table of runs whose columns equal the given values; numbers to nine digits."""
         import pandas as pd
 

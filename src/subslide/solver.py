@@ -4,6 +4,7 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numba
 import numpy as np
@@ -12,9 +13,8 @@ from subslide.kernels import clock as k
 from subslide.kernels import measures, samples
 from subslide.kernels.arrays import Track
 from subslide.kernels.measures import Scales
-from subslide.models.axial import Axial
 from subslide.models.build import build
-from subslide.models.plane import Plane
+from subslide.models.model import Model
 from subslide.naming import FINISHED, FRONT_THRESHOLDS, STATUSES
 from subslide.points import Point
 from subslide.study import choice
@@ -106,6 +106,14 @@ class Run:
         return series[name]
 
 
+class Snapshot(NamedTuple):
+    """Time (s) of a snapshot, and scaled profiles and, where they are kept, fields of the plane, by name."""
+
+    time: float
+    profile: dict[str, np.ndarray]
+    fields: dict[str, np.ndarray] | None
+
+
 def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | None = None) -> Run:
     """Return the `Run` of a point; a numerical failure is a status, never an exception.
 
@@ -139,7 +147,9 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
     if point.t_end is None:
         clock[k.REST_FROM] = max(times[-1] / time_scale if times else 0.0, np.nextafter(0.0, 1.0))
     warm_up(model)
-    chunks, snapshots, wall = [], [], 0.0
+    chunks: list[np.ndarray] = []
+    snapshots: list[Snapshot] = []
+    wall = 0.0
     for stop in sorted({*times, end}):
         clock[k.STOP] = stop / time_scale
         outcome, seconds = advance_to(
@@ -147,29 +157,31 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
         )
         wall += seconds
         if stop in times and clock[k.NOW] >= clock[k.STOP]:
-            snapshots.append((stop, model.profile(), model.fields() if point.fields else None))
+            snapshots.append(Snapshot(stop, model.profile(), model.fields() if point.fields else None))
         if outcome != k.REACHED:
             break
-    snapshots.append((clock[k.NOW] * time_scale, model.profile(), model.fields() if point.fields else None))
+    last = float(clock[k.NOW] * time_scale)
+    snapshots.append(Snapshot(last, model.profile(), model.fields() if point.fields else None))
     sampled = np.concatenate(chunks)
     status = ENDED.get(outcome, "ok" if point.t_end is not None else "not_at_rest")
     detail = "" if status == "ok" else describe(status, model, sampled, time_scale)
     return make_run(point, model, sampled, snapshots, (status, detail), wall, clock)
 
 
-def thresholds(model: Axial | Plane) -> tuple[np.floating, ...]:
+def thresholds(model: Model) -> tuple[float, ...]:
     """Return the front's thresholds in the working precision."""
-    return tuple(model.settings.r.dtype.type(value) for value in FRONT_THRESHOLDS)
+    real = type(model.level)
+    return tuple(real(value) for value in FRONT_THRESHOLDS)
 
 
-def warm_up(model: Axial | Plane) -> None:
+def warm_up(model: Model) -> None:
     """Compile the time loop (or load it) with a segment of no length, which changes nothing but derived values."""
     track = Track(np.array([0.0, 0.0, math.inf, -1.0]), np.empty((2, samples.COLUMNS)), np.zeros(2, np.int64))
     model.advance(thresholds(model), track)
 
 
 def advance_to(
-    model: Axial | Plane, clock: np.ndarray, chunks: list[np.ndarray], look: Callable[[float], object]
+    model: Model, clock: np.ndarray, chunks: list[np.ndarray], look: Callable[[float], object]
 ) -> tuple[int, float]:
     """Return why the loop ended and its seconds; samples are appended to `chunks`, one for each instant.
 
@@ -189,7 +201,7 @@ def advance_to(
             return int(track.counters[k.OUTCOME]), wall
 
 
-def describe(status: str, model: Axial | Plane, sampled: np.ndarray, time_scale: float) -> str:
+def describe(status: str, model: Model, sampled: np.ndarray, time_scale: float) -> str:
     """Return one line on a run that did not end well: what, when, after how many steps, and where."""
     text = f"{STATUSES[status]}; t = {sampled[-1, samples.TIME] * time_scale:.6g} s, step {len(sampled) - 1}"
     suspect = ""
@@ -200,7 +212,7 @@ def describe(status: str, model: Axial | Plane, sampled: np.ndarray, time_scale:
     return f"{text}, {suspect}" if suspect else text
 
 
-def series_in_si(model: Axial | Plane, point: Point, sampled: np.ndarray) -> dict[str, np.ndarray]:
+def series_in_si(model: Model, point: Point, sampled: np.ndarray) -> dict[str, np.ndarray]:
     """Return the series of a run by name, in SI units, from its samples; NaN where the model lacks a layer."""
     volume = model.copies * point.column_height * point.radius**model.dimensions
     si = Scales(point.radius, point.column_height, point.g, volume, model.copies)
@@ -213,28 +225,28 @@ def series_in_si(model: Axial | Plane, point: Point, sampled: np.ndarray) -> dic
     return series
 
 
+def in_metres(values: list[dict[str, np.ndarray]], name: str, height: float) -> np.ndarray:
+    """Return one of the scaled profiles or fields of each snapshot in m, stacked along a new first axis."""
+    return np.stack([of_snapshot[name] for of_snapshot in values]) * height
+
+
 def make_run(
     point: Point,
-    model: Axial | Plane,
+    model: Model,
     sampled: np.ndarray,
-    snapshots: list[tuple],
+    snapshots: list[Snapshot],
     ended: tuple[str, str],
     wall: float,
     clock: np.ndarray,
 ) -> Run:
     """Return the `Run` of a finished loop, in SI units. ended: its status and the detail of it."""
     height, time_scale = point.column_height, point.time_scale
-    profiles = [profile for _, profile, _ in snapshots]
-    whole = [fields for _, _, fields in snapshots]
+    profiles = [snapshot.profile for snapshot in snapshots]
+    whole = [snapshot.fields for snapshot in snapshots if snapshot.fields]
     series = series_in_si(model, point, sampled)
     front = series["x_front"]
     status, detail = ended
     final = status in FINISHED
-
-    def stack(values, name, kind=np.float64):
-        if values[0] is None or name not in values[0]:
-            return None
-        return (np.stack([value[name] for value in values]) * height).astype(kind)
 
     alone = model.settings.layers == 1
     rested = clock[k.REST_SINCE] >= 0 and final
@@ -246,12 +258,12 @@ def make_run(
         x=model.x * point.radius,
         time=sampled[:, samples.TIME] * time_scale,
         series=series,
-        snapshot_time=np.array([t for t, _, _ in snapshots]),
-        h2=stack(profiles, "h2"),
-        eta=np.full((len(profiles), len(model.x)), np.nan) if alone else stack(profiles, "eta"),
-        h2_diagonal=stack(profiles, "h2_diagonal"),
-        h2_field=stack(whole, "h2", np.float32),
-        eta_field=stack(whole, "eta", np.float32),
+        snapshot_time=np.array([snapshot.time for snapshot in snapshots]),
+        h2=in_metres(profiles, "h2", height),
+        eta=np.full((len(profiles), len(model.x)), np.nan) if alone else in_metres(profiles, "eta", height),
+        h2_diagonal=in_metres(profiles, "h2_diagonal", height) if "h2_diagonal" in profiles[0] else None,
+        h2_field=in_metres(whole, "h2", height).astype(np.float32) if whole else None,
+        eta_field=in_metres(whole, "eta", height).astype(np.float32) if whole else None,
         L_f=front[:, -1].copy() if final else np.full(len(FRONT_THRESHOLDS), np.nan),
         status=status,
         status_detail=detail,

@@ -15,11 +15,13 @@ MODULES = tuple(f"{__name__}.{name}" for name in ("solving", "tabulating", "show
 class Verbs(click.Group):
     """Group of commands that lists them in the order they were written, and names the nearest to a mistyped one."""
 
-    def list_commands(self, ctx):
+    def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of the commands."""
         return list(self.commands)
 
-    def resolve_command(self, ctx, args):
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
         """Return the command that is called; UsageError, with what is allowed, if there is none."""
         if args and args[0] not in self.commands:
             hint = words.closest(args[0], self.commands)
@@ -31,5 +33,5 @@ class Verbs(click.Group):
 
 @click.group(cls=Verbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
 @click.version_option(subslide.__version__, prog_name="subslide")
-def cli():
+def cli() -> None:
     """Collapse of submerged granular columns: two-layer Coulomb runs, records, tables and figures."""

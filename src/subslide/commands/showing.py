@@ -14,7 +14,7 @@ from subslide.keys.schema import ConfigError
     "--results", required=True, metavar="FOLDER", help="folder of a study with its tables and records"
 )
 @click.option("-o", "--output", required=True, metavar="FOLDER", help="folder for NAME.png and NAME.svg")
-def figure(name, results, output):
+def figure(name: str, results: str, output: str) -> None:
     """Draw one figure, NAME, of a study as PNG and SVG."""
     from subslide.figures import _save
 
@@ -23,7 +23,7 @@ def figure(name, results, output):
 
 
 @cli.command()
-def docs():
+def docs() -> None:
     """Write the pages of documentation that follow from the code, in the repository that is the current folder."""
     from subslide import pages
     from subslide.files import write_text

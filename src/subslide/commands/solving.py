@@ -1,15 +1,17 @@
 """Verbs that check and solve: `run` for one collapse, and what the workflow's rules call."""
 
 import gc
+from collections.abc import Callable, Iterable
+from typing import Any
 
 import click
 
 from subslide.commands import cli
 from subslide.keys import schema, words
-from subslide.points import RUN_KEYS
+from subslide.points import RUN_KEYS, Point
 
 
-def run_options(command):
+def run_options(command: Callable) -> Callable:
     """Return the command with one option for each key of a run; help texts come from the schema."""
     for key in reversed(("numerics", *RUN_KEYS)):
         about = schema.properties()[key]
@@ -41,7 +43,7 @@ def _help(key: str) -> str:
     "--threads", type=click.IntRange(1, 1024), default=1, show_default=True, help="threads of the kernels"
 )
 @click.option("-o", "--output", required=True, metavar="FILE.nc", help="record to write (NetCDF-4)")
-def run(config, threads, output, **options):
+def run(config: str | None, threads: int, output: str, **options: Any) -> None:
     """Solve one collapse, print one line and write its record.
 
     Exit status: 0 when a record was written, whatever its status; 2 for bad input; 1 for a fault.
@@ -57,7 +59,7 @@ def run(config, threads, output, **options):
     click.echo(jobs.run(point, threads, output))
 
 
-def caution(points) -> None:
+def caution(points: Iterable[Point]) -> None:
     """Say on stderr, once of each unsafe region, that some of the points lie in it."""
     from subslide.study import cautions
 
@@ -67,7 +69,7 @@ def caution(points) -> None:
 
 @cli.command()
 @click.argument("config", nargs=-1, required=True)
-def check(config):
+def check(config: tuple[str, ...]) -> None:
     """Check study files, CONFIG..., and print one line for each, with cautions where runs lie in unsafe regions."""
     from subslide.study.config import read_study
 
@@ -86,7 +88,7 @@ def check(config):
     "--threads", type=click.IntRange(1, 1024), default=1, show_default=True, help="threads of the kernels"
 )
 @click.option("-o", "--output", required=True, metavar="FILE.nc", help="record to write (NetCDF-4)")
-def batch(spec, threads, output):
+def batch(spec: str, threads: int, output: str) -> None:
     """Solve the points of a batch file, SPEC, into one record with its SHA-256 beside it."""
     from subslide import jobs
 
@@ -98,7 +100,7 @@ def batch(spec, threads, output):
 
 @cli.command()
 @click.argument("kernel", nargs=-1, required=True, metavar="MODEL:DTYPE[:general]...")
-def warm(kernel):
+def warm(kernel: tuple[str, ...]) -> None:
     """Compile the kernels of some models into the cache, so that jobs started together do not each compile."""
     from subslide import jobs
 

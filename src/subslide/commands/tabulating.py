@@ -51,14 +51,14 @@ def renew(path: str, page: str, folder: str) -> None:
 @cli.command()
 @click.argument("name")
 @results_argument
-def table(name, results):
+def table(name: str, results: str) -> None:
     """Write one table, NAME, of a study from its records and tables; RESULTS is its folder, such as results/paper."""
     write(name, results)
 
 
 @cli.command()
 @results_argument
-def tables(results):
+def tables(results: str) -> None:
     """Write runs, timing and series of a study, and its bands if it has any; RESULTS is its folder."""
     from subslide.results import Results
     from subslide.tables import _write
@@ -74,7 +74,7 @@ def tables(results):
 
 @cli.command()
 @results_argument
-def errors(results):
+def errors(results: str) -> None:
     """Write the table of errors against exact solutions of a study; RESULTS is the study's folder."""
     write("errors", results)
 
@@ -82,7 +82,7 @@ def errors(results):
 @cli.command()
 @results_argument
 @page_option
-def verify(results, output):
+def verify(results: str, output: str | None) -> int:
     """Print errors and observed orders of a study with exact solutions, such as results/accuracy.
 
     Exit status: 0 if every required order is reached and grains at rest are still; 1 if not; 2 for bad input.
@@ -114,7 +114,7 @@ def verify(results, output):
     multiple=True,
     help="page whose tables of the last run are written anew",
 )
-def work_precision(results, output):
+def work_precision(results: str, output: tuple[str, ...]) -> None:
     """Chart error against seconds for a study that sweeps numerics; RESULTS is its folder, such as results/accuracy.
 
     Writes RESULTS/tables/work_precision.csv and cheapest.csv, and prints the cheapest choices.
@@ -128,7 +128,7 @@ def work_precision(results, output):
 @cli.command()
 @results_argument
 @page_option
-def atlas(results, output):
+def atlas(results: str, output: str | None) -> None:
     """Write the stability atlas of a study and print how each method did; RESULTS is the study's folder."""
     write("atlas", results)
     if output:
@@ -137,7 +137,7 @@ def atlas(results, output):
 
 @cli.command()
 @results_argument
-def cfl(results):
+def cfl(results: str) -> None:
     """Find the largest stable Courant number of each scheme, order and model, for a study's table of them.
 
     RESULTS is the study's folder, such as results/stability.
@@ -147,7 +147,7 @@ def cfl(results):
 
 @cli.command()
 @results_argument
-def claims(results):
+def claims(results: str) -> None:
     """Hold what the source paper says against a study's tables; RESULTS is its folder, such as results/paper.
 
     Writes RESULTS/tables/claims.csv and claims.html, and prints the same as text.

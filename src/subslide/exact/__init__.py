@@ -38,7 +38,7 @@ def scaled(point: Point, x: float | np.ndarray, time: float) -> tuple[np.ndarray
 
 def in_metres(point: Point, h2: float | np.ndarray, eta: float | np.ndarray) -> Profiles:
     """Return the profiles of scaled h2 and eta in m."""
-    return {"h2": h2 * point.column_height, "eta": eta * point.column_height}
+    return {"h2": np.asarray(h2) * point.column_height, "eta": np.asarray(eta) * point.column_height}
 
 
 def frictionless(point: Point) -> bool:

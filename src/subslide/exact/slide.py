@@ -28,7 +28,7 @@ def speed_of(point: Point, time: float | np.ndarray) -> np.ndarray:
     """Return the speed (m/s) of the layer of a point at the time (s); NaN for a law without a formula."""
     if point.friction not in ("coulomb", "voellmy"):
         return np.full(np.shape(time), np.nan)
-    _, t = scaled(point, 0.0, time)
+    t = np.asarray(time) / point.time_scale
     turbulence = point.turbulence if point.friction == "voellmy" else 0.0
     start = options(point)["speed"]
     u = speed(t, start, (1 - point.r) * point.friction_number, turbulence)

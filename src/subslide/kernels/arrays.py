@@ -19,7 +19,7 @@ so the edge e = k has the cell i = k + GHOSTS - 1 before it and the cell k + GHO
 fluxes along y lie between two padded rows, and their edge e = k is between the cells k + GHOSTS of both.
 """
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
 
@@ -59,8 +59,18 @@ class Settings(NamedTuple):
     viscous_friction: int = 1  # 0: the viscosity does not see what friction holds
 
 
-GeneralSettings = NamedTuple("GeneralSettings", [*Settings.__annotations__.items(), ("general", int)])
-"""Settings for which kernels with every choice are compiled; see `is_general`."""
+if TYPE_CHECKING:
+
+    class GeneralSettings(Settings):
+        """Settings for which kernels with every choice are compiled; see `is_general`."""
+
+        general: int
+
+        def __new__(cls, *values: Any, general: int) -> Self:
+            """Take the values of `Settings`, in order, and the mark of the type."""
+
+else:  # for numba a tuple of its own, with one field more
+    GeneralSettings = NamedTuple("GeneralSettings", [*Settings.__annotations__.items(), ("general", int)])
 
 LEAN_FIELDS = len(Settings._fields)
 
@@ -145,7 +155,7 @@ class Mesh(NamedTuple):
 class Watch(NamedTuple):
     """Numbers by which a run is watched, the same at every step; rows and columns are padded."""
 
-    level: float  # undisturbed surface
+    level: float  # undisturbed surface, in the working precision
     least_grains: float  # volume of grains below which too much has left the box
     margin: float  # of the discriminant: below it round-off decides
     still1: float  # depths of still water, where nothing need be solved

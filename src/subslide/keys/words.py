@@ -82,7 +82,7 @@ def metavar(key: str) -> str:
     if about.get("type") == "object":
         return "NAME=VALUE,..."
     listed = "".join(f"{name}|" for name in choices(about))
-    by_unit = {"degree": "DEG", "s": "S"}.get(about.get("unit"), "F")
+    by_unit = {"degree": "DEG", "s": "S"}.get(about.get("unit", ""), "F")
     letter = "N" if about.get("type") == "integer" else by_unit
     many = ",..." if any(part.get("type") == "array" for part in about.get("anyOf", ())) else ""
     return listed + letter + many

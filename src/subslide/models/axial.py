@@ -1,36 +1,63 @@
 """One dimension: a radius (round scenes, `radial`) or a line, with one layer or two."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from subslide.kernels.advance_axial import advance_axial
-from subslide.kernels.arrays import GHOSTS, Cells, CellTerms, Fluxes, Mesh, Side, Watch, allocate
-from subslide.models.limits import LOST_GRAINS, first_sheared, first_suspect
+from subslide.kernels.arrays import (
+    GHOSTS,
+    Cells,
+    CellTerms,
+    Fluxes,
+    Mesh,
+    Settings,
+    Side,
+    Track,
+    Watch,
+    allocate,
+)
+from subslide.models.limits import LOST_GRAINS
+from subslide.models.model import Model
+from subslide.scenes import Grid
 
 
-class Axial:
-    """A state on n cells and the time loop that moves it.
+class Axial(Model):
+    """State on n cells of a line or a radius, and the time loop that moves it.
 
     Parameters
     ----------
-    name : str
+    name
         The model's name.
-    settings : kernels.arrays.Settings
+    settings
         Scaled numbers in the working precision.
-    state : tuple
+    state
         (h1, u1, h2, u2), each (n), scaled.
-    grid : models.grid.Grid
+    grid
         A radius, whose cells are rings about the axis, or a line.
-    walls : tuple of int
+    walls
         What the (left, right) end is, see `kernels.boundary`.
-    level : float
+    level
         The undisturbed surface, scaled.
-    watched : int
+    watched
         Cells from the axis within which the surface is watched.
     """
 
     copies = 1
+    variables = ("h1", "u1", "h2", "u2")
 
-    def __init__(self, name, settings, state, grid, *, walls, level, watched):
+    def __init__(
+        self,
+        name: str,
+        settings: Settings,
+        state: Sequence[np.ndarray],
+        grid: Grid,
+        *,
+        walls: tuple[int, int],
+        level: float,
+        watched: int,
+    ):
+        """Put the state into padded arrays, and allocate those that a step works on."""
         real = type(settings.r)
         radial = grid.geometry == "radius"
         n = len(grid.centres)
@@ -42,14 +69,13 @@ class Axial:
         self.half_width = grid.edges[-1]
         self.dimensions = 2 if radial else 1
         self.cells = allocate(Cells, (padded,), real)
-        for variable, values in zip(("h1", "u1", "h2", "u2"), state, strict=True):
+        for variable, values in zip(self.variables, state, strict=True):
             getattr(self.cells, variable)[GHOSTS:-GHOSTS] = values
-        in_cells = Side(*(getattr(self.cells, variable) for variable in Side._fields))
-        self.left, self.right = (
-            (in_cells, in_cells)
-            if settings.order == 1
-            else (allocate(Side, (padded,), real) for _ in range(2))
-        )
+        if settings.order == 1:
+            self.left = self.right = Side(*(getattr(self.cells, variable) for variable in Side._fields))
+        else:
+            self.left = allocate(Side, (padded,), real)
+            self.right = allocate(Side, (padded,), real)
         self.fluxes = allocate(Fluxes, (n + 1,), real)
         self.terms = allocate(CellTerms, (padded,), real)
         self.terms.keep1[:] = self.terms.keep2[:] = 1
@@ -57,7 +83,7 @@ class Axial:
         self.walls = (int(walls[0]), int(walls[1]))
         self.watch = self._watch(grid.dx, watched, state[0][-1], state[2][-1])
 
-    def _watch(self, dx, watched, still1, still2):
+    def _watch(self, dx: float, watched: int, still1: float, still2: float) -> Watch:
         """Return the `Watch` of the loop; still water is the state of the last cell at the start."""
         near = np.flatnonzero(np.abs(self.x) < watched * dx)
         columns = (near[0], near[-1] + 1, np.searchsorted(self.x, 0.0), np.searchsorted(self.x, 1.0))
@@ -66,7 +92,7 @@ class Axial:
         return Watch(
             level=self.level,
             least_grains=(1 - LOST_GRAINS) * grains,
-            margin=64.0 * float(np.finfo(self.level.dtype).eps),
+            margin=64.0 * float(np.finfo(type(self.level)).eps),
             still1=still1,
             still2=still2,
             start=start,
@@ -79,7 +105,7 @@ class Axial:
             above_axis=0,
         )
 
-    def advance(self, thresholds, track):
+    def advance(self, thresholds: tuple[float, ...], track: Track) -> None:
         """Run the time loop; see `advance_axial`."""
         advance_axial(
             self.settings,
@@ -95,7 +121,7 @@ class Axial:
             track,
         )
 
-    def profile(self):
+    def profile(self) -> dict[str, np.ndarray]:
         """Return h2 and eta - level (n) as float64 copies, the innermost cell first."""
         inner = slice(GHOSTS, -GHOSTS)
         h2 = self.cells.h2[inner].astype(np.float64)
@@ -104,16 +130,8 @@ class Axial:
             "eta": (self.cells.h1 + self.cells.h2)[inner].astype(np.float64) - float(self.level),
         }
 
-    def suspect(self):
-        """Return where the state is first not finite or negative, and what stands there; '' if nowhere."""
-        return first_suspect(self.cells, ("h1", "u1", "h2", "u2"))
 
-    def sheared(self):
-        """Return where wave speeds are first complex, and the state there; '' if nowhere."""
-        return first_sheared(self.cells, ("h1", "u1", "h2", "u2"), self.settings)
-
-
-def mesh_of(grid, radial, right_wall, real):
+def mesh_of(grid: Grid, radial: bool, right_wall: int, real: type[float]) -> Mesh:
     """Return the `Mesh` of a line or a radius in the working precision `real`."""
     n, dx, x = len(grid.centres), grid.dx, grid.centres
     padded = n + 2 * GHOSTS

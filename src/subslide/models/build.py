@@ -10,13 +10,14 @@ from subslide.kernels.arrays import GeneralSettings, Settings
 from subslide.keys import names
 from subslide.models.axial import Axial
 from subslide.models.grid import make_grid
+from subslide.models.model import Model
 from subslide.models.plane import Plane
 from subslide.points import Point
 from subslide.study import choice
 
 
-def settings_of(point: Point, layers: int, dx: float, dry_depth: float) -> Settings | GeneralSettings:
-    """Return the scaled numbers and choices of a point in its working precision.
+def settings_of(point: Point, layers: int, dx: float, dry_depth: float) -> Settings:
+    """Return the scaled numbers and choices of a point in its working precision, `GeneralSettings` where it needs them.
 
     Parameters
     ----------
@@ -26,10 +27,15 @@ def settings_of(point: Point, layers: int, dx: float, dry_depth: float) -> Setti
         1 for grains alone.
     dx, dry_depth
         Cell size over R; depth over H2 below which a layer counts as dry.
+
+    Returns
+    -------
+    Settings
+        Reals of the point's dtype, flags and counts integers.
     """
     real = np.dtype(point.dtype).type
     mu = math.tan(math.radians(point.delta))
-    law = (real(number) for number in friction.numbers(point))
+    law_1, law_2, law_3 = (real(number) for number in friction.numbers(point))
     exact = point.front_flux == "exact" and viscosity.takes_exact_front(point.scheme)
     settings = Settings(
         layers=layers,
@@ -44,7 +50,9 @@ def settings_of(point: Point, layers: int, dx: float, dry_depth: float) -> Setti
         lanes=64 // real().itemsize,
         speeds=names.flags(names.SPEEDS)[point.wave_speeds],
         law=friction.FLAGS[point.friction],
-        **dict(zip(("law_1", "law_2", "law_3"), law, strict=True)),
+        law_1=law_1,
+        law_2=law_2,
+        law_3=law_3,
         treatment=hyperbolicity.FLAGS[point.treatment],
         as_printed=printed.FLAGS[point.as_printed],
         printed_bound=real((1 - point.r) * mu * math.sqrt(point.g / point.column_height)),
@@ -53,7 +61,7 @@ def settings_of(point: Point, layers: int, dx: float, dry_depth: float) -> Setti
     return GeneralSettings(*settings, general=1) if choice.of(point).general else settings
 
 
-def build(point: Point, box: int, watched: int, dry_depth: float) -> Axial | Plane:
+def build(point: Point, box: int, watched: int, dry_depth: float) -> Model:
     """Return the model of a point in its initial state.
 
     Parameters
@@ -64,6 +72,11 @@ def build(point: Point, box: int, watched: int, dry_depth: float) -> Axial | Pla
         Cells from the axis to the end of the box, and of the region where the surface is watched.
     dry_depth
         Depth over H2 below which a layer counts as dry.
+
+    Returns
+    -------
+    Model
+        An `Axial` or a `Plane`.
     """
     real = np.dtype(point.dtype).type
     model, geometry, *_ = choice.of(point)
@@ -76,16 +89,15 @@ def build(point: Point, box: int, watched: int, dry_depth: float) -> Axial | Pla
     axial = grid.geometry in ("radius", "line")
     shape = (len(grid.centres),) * (1 if axial else 2)
     flat = np.ptp(state.h1 + state.h2) == 0
-    state = scenes.State(*(np.broadcast_to(np.asarray(values, real), shape) for values in state))
+    h1, h2, u1, v1, u2, v2 = (np.broadcast_to(np.asarray(values, real), shape) for values in state)
     if flat:  # flat to the bit in the working precision too
-        h1, h2 = scenes.level_off(state.h2, level)
-        state = state._replace(h1=h1, h2=h2)
+        h1, h2 = scenes.level_off(h2, level)
     end = boundary.FLAGS[point.boundary]
-    watch = {"level": real(1) if alone else level, "watched": watched}
+    surface = real(1) if alone else level
     if axial:
         walls = (boundary.WALL if grid.geometry == "radius" else end, end)
-        layers = (0 * state.h1 if alone else state.h1, state.u1, state.h2, state.u2)
-        return Axial(model, settings, layers, grid, walls=walls, **watch)
+        line = (0 * h1 if alone else h1, u1, h2, u2)
+        return Axial(model, settings, line, grid, walls=walls, level=surface, watched=watched)
     first = boundary.WALL if grid.geometry == "quarter" else end
-    layers = (state.h1, state.u1, state.v1, state.h2, state.u2, state.v2)
-    return Plane(model, settings, layers, grid, walls=(first, end, first, end), **watch)
+    plane = (h1, u1, v1, h2, u2, v2)
+    return Plane(model, settings, plane, grid, walls=(first, end, first, end), level=surface, watched=watched)

@@ -1,16 +1,31 @@
 """When and where a state went wrong."""
 
+from collections.abc import Iterable
+
 import numpy as np
 
-from subslide.kernels.arrays import GHOSTS
+from subslide.kernels.arrays import GHOSTS, Cells, Settings
 from subslide.kernels.hyperbolicity import is_complex
 
 LOST_GRAINS = 1e-3
 """Fraction of the grains that may leave the box, thinner than the front, before the run counts as `left_domain`."""
 
 
-def first_suspect(cells, names):
-    """Return the first cell that is not finite or has a negative depth, else the fastest, with its scaled state."""
+def first_suspect(cells: Cells, names: Iterable[str]) -> str:
+    """Return the first cell that is not finite or has a negative depth, else the fastest, with its scaled state.
+
+    Parameters
+    ----------
+    cells
+        State, padded.
+    names
+        Fields that make the state, in the order in which it is told.
+
+    Returns
+    -------
+    str
+        Place and state in words.
+    """
     values = inner(cells, names)
     bad = (values["h1"] < 0) | (values["h2"] < 0)
     for array in values.values():
@@ -21,11 +36,27 @@ def first_suspect(cells, names):
     return described(bad, values)
 
 
-def first_sheared(cells, names, settings):
-    """Return the first cell whose wave speeds are complex along its shear, likewise."""
+def first_sheared(cells: Cells, names: Iterable[str], settings: Settings) -> str:
+    """Return the first cell whose wave speeds are complex along its shear, with its scaled state.
+
+    Parameters
+    ----------
+    cells
+        State, padded.
+    names
+        Fields that make the state, in the order in which it is told.
+    settings
+        Scaled numbers of the run.
+
+    Returns
+    -------
+    str
+        Place and state in words; '' if there is no such cell.
+    """
     values = inner(cells, names)
     real = type(settings.r)
-    square = sum((values[a] - values[b]) ** 2 for a, b in (("u1", "u2"), ("v1", "v2")) if a in values)
+    pairs = [(a, b) for a, b in (("u1", "u2"), ("v1", "v2")) if a in values]
+    square = np.sum([(values[a] - values[b]) ** 2 for a, b in pairs], axis=0)
     h1, h2 = values["h1"], values["h2"]
     lost = np.minimum(h1, h2) > settings.dry_depth
     for where in np.argwhere(lost):
@@ -36,13 +67,13 @@ def first_sheared(cells, names, settings):
     return described(lost, values)
 
 
-def inner(cells, names):
+def inner(cells: Cells, names: Iterable[str]) -> dict[str, np.ndarray]:
     """Return the fields of a state by name, without ghost cells."""
     inside = (slice(GHOSTS, -GHOSTS),) * cells.h1.ndim
     return {name: getattr(cells, name)[inside] for name in names}
 
 
-def described(bad, values):
+def described(bad: np.ndarray, values: dict[str, np.ndarray]) -> str:
     """Return the first cell where `bad` is true, with its scaled state; '' if there is none."""
     if not bad.any():
         return ""

@@ -1,37 +1,64 @@
 """The plane: whole, or the quarter x, y > 0 with walls on the axes for scenes with two mirror symmetries."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from subslide.kernels.active import SPANS
 from subslide.kernels.advance_planar import BLOCK, ROW_COLUMNS, advance_planar
-from subslide.kernels.arrays import GHOSTS, Cells, CellTerms, Fluxes, Mesh, Side, Watch, allocate
-from subslide.models.limits import LOST_GRAINS, first_sheared, first_suspect
+from subslide.kernels.arrays import (
+    GHOSTS,
+    Cells,
+    CellTerms,
+    Fluxes,
+    Mesh,
+    Settings,
+    Side,
+    Track,
+    Watch,
+    allocate,
+)
+from subslide.models.limits import LOST_GRAINS
+from subslide.models.model import Model
+from subslide.scenes import Grid
 
 
-class Plane:
-    """A state on ny x nx square cells and the time loop that moves it.
+class Plane(Model):
+    """State on ny x nx square cells, and the time loop that moves it.
 
     Parameters
     ----------
-    name : str
+    name
         The model's name.
-    settings : kernels.arrays.Settings
+    settings
         Scaled numbers in the working precision.
-    state : tuple
+    state
         (h1, u1, v1, h2, u2, v2), each (ny, nx), scaled.
-    grid : models.grid.Grid
+    grid
         The plane or its quarter.
-    walls : tuple of int
+    walls
         What (left, right, bottom, top) are, see `kernels.boundary`.
-    level : float
+    level
         The undisturbed surface, scaled.
-    watched : int
+    watched
         Half-width in cells of the region where the surface is watched.
     """
 
     dimensions = 2
+    variables = ("h1", "u1", "v1", "h2", "u2", "v2")
 
-    def __init__(self, name, settings, state, grid, *, walls, level, watched):
+    def __init__(
+        self,
+        name: str,
+        settings: Settings,
+        state: Sequence[np.ndarray],
+        grid: Grid,
+        *,
+        walls: tuple[int, int, int, int],
+        level: float,
+        watched: int,
+    ):
+        """Put the state into padded arrays, and allocate those that a step works on."""
         real = type(settings.r)
         ny, nx = state[0].shape
         padded = (ny + 2 * GHOSTS, nx + 2 * GHOSTS)
@@ -45,7 +72,7 @@ class Plane:
         self.centre = (first, first)
         self.cells = allocate(Cells, padded, real)
         inner = (slice(GHOSTS, -GHOSTS),) * 2
-        for variable, values in zip(("h1", "u1", "v1", "h2", "u2", "v2"), state, strict=True):
+        for variable, values in zip(self.variables, state, strict=True):
             getattr(self.cells, variable)[inner] = values
         blocks = -(-ny // BLOCK)
         if settings.order == 1:
@@ -64,13 +91,13 @@ class Plane:
         self.spans = np.zeros((padded[0], SPANS), np.int64)
         self.rows = np.zeros((padded[0], ROW_COLUMNS))
 
-    def _watch(self, padded, axis, watched, still1, still2):
+    def _watch(self, padded: tuple[int, int], axis: int, watched: int, still1: float, still2: float) -> Watch:
         """Return the `Watch` of the loop. axis: first padded column, and row, beyond the axis."""
         grains = float(np.sum(self.mesh.weight * self.cells.h2, dtype=np.float64))
         return Watch(
             level=self.level,
             least_grains=(1 - LOST_GRAINS) * grains,
-            margin=64.0 * float(np.finfo(self.level.dtype).eps),
+            margin=64.0 * float(np.finfo(type(self.level)).eps),
             still1=still1,
             still2=still2,
             start=max(GHOSTS, axis - watched),
@@ -83,7 +110,7 @@ class Plane:
             above_axis=axis,
         )
 
-    def advance(self, thresholds, track):
+    def advance(self, thresholds: tuple[float, ...], track: Track) -> None:
         """Run the time loop; see `advance_planar`."""
         advance_planar(
             self.settings,
@@ -101,13 +128,13 @@ class Plane:
             track,
         )
 
-    def fields(self):
+    def fields(self) -> dict[str, np.ndarray]:
         """Return h2 and eta - level (ny, nx) as float64 copies."""
         inner = (slice(GHOSTS, -GHOSTS),) * 2
         surface = (self.cells.h1 + self.cells.h2)[inner].astype(np.float64)
         return {"h2": self.cells.h2[inner].astype(np.float64), "eta": surface - float(self.level)}
 
-    def profile(self):
+    def profile(self) -> dict[str, np.ndarray]:
         """Return h2 and eta along the x axis (mean of the rows beside it) and h2 along the diagonal, each (nx)."""
         whole = self.fields()
         rows = [row - GHOSTS for row in (self.watch.below_axis, self.watch.above_axis)]
@@ -115,16 +142,8 @@ class Plane:
         out["h2_diagonal"] = diagonal(whole["h2"], self.centre)
         return out
 
-    def suspect(self):
-        """Return where the state is first not finite or negative, and what stands there; '' if nowhere."""
-        return first_suspect(self.cells, ("h1", "u1", "v1", "h2", "u2", "v2"))
 
-    def sheared(self):
-        """Return where wave speeds are first complex, and the state there; '' if nowhere."""
-        return first_sheared(self.cells, ("h1", "u1", "v1", "h2", "u2", "v2"), self.settings)
-
-
-def mesh_of(columns, dx, real):
+def mesh_of(columns: int, dx: float, real: type[float]) -> Mesh:
     """Return the `Mesh` of a row of padded columns in the plane, in the working precision `real`."""
     weight = np.zeros(columns, real)
     weight[GHOSTS:-GHOSTS] = dx * dx
@@ -133,7 +152,9 @@ def mesh_of(columns, dx, real):
     return Mesh(area=nothing, inverse_volume=nothing, source=nothing, weight=weight, total=total)
 
 
-def columns_within_radius(padded_rows, row, column, dx, box):
+def columns_within_radius(
+    padded_rows: int, row: int, column: int, dx: float, box: tuple[int, int]
+) -> np.ndarray:
     """Return for each padded row the padded columns [start, stop) whose centres lie within R = 1, as int64."""
     y = (np.arange(padded_rows) - row + 0.5) * dx
     reach = np.sqrt(np.maximum(0.0, 1.0 - y**2)) / dx
@@ -142,7 +163,7 @@ def columns_within_radius(padded_rows, row, column, dx, box):
     return np.clip(np.stack([start, stop], axis=1), *box)
 
 
-def diagonal(h2, centre):
+def diagonal(h2: np.ndarray, centre: tuple[int, int]) -> np.ndarray:
     """Return h2 at the cells (column + k, row + k) of the diagonal, NaN where the box has none."""
     ny, nx = h2.shape
     column = np.arange(nx)

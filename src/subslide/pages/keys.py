@@ -107,7 +107,7 @@ def presets() -> str:
 def scene(name: str) -> str:
     """Return the section (Markdown) on a scene and its options."""
     module = scenes.load(name)
-    lines = [f"### {name}", "", module.__doc__.strip().replace("\n", " ").replace("  ", "\n\n"), ""]
+    lines = [f"### {name}", "", (module.__doc__ or "").strip().replace("\n", " ").replace("  ", "\n\n"), ""]
     if module.OPTIONS:
         lines += ["| option | meaning | unit | default | allowed |", "|---|---|---|---|---|"]
     for option, about in module.OPTIONS.items():

@@ -123,7 +123,8 @@ def _profiles(runs: list["Run"], first: int, cells: int) -> dict[str, Variable]:
         for n, (run, values) in enumerate(zip(runs, kept, strict=True)):
             if values is not None:
                 inside = slice(_offset(run) - first, _offset(run) - first + len(run.x))
-                joined[(n, slice(len(values)), *[inside] * axes)] = values
+                place: tuple[int | slice, ...] = (n, slice(len(values)), *[inside] * axes)
+                joined[place] = values
         record[name] = _variable(name, joined)
     return record
 

@@ -30,7 +30,7 @@ def means(
 
     Exact for linear functions; a kink of slope s costs s dx / (8 points^2) at most.
     """
-    total = 0.0
+    total = np.zeros((len(y_edges) - 1, len(x_edges) - 1))
     for j in range(points):
         y = y_edges[:-1] + (j + 0.5) / points * np.diff(y_edges)
         for i in range(points):

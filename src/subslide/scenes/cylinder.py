@@ -2,11 +2,12 @@
 
 import numpy as np
 
+from subslide.keys.entries import Entry
 from subslide.points import Point
 from subslide.scenes import Grid, State, still_water
 from subslide.scenes._cells import over_plane
 
-OPTIONS = {}
+OPTIONS: dict[str, Entry] = {}
 
 
 def symmetry(point: Point) -> str:
@@ -49,7 +50,7 @@ def disc_corner_area(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     y = np.minimum(y, 1.0)
     leaves = np.sqrt(1.0 - y**2)  # where the circle comes below y
 
-    def under_circle(s):
+    def under_circle(s: np.ndarray) -> np.ndarray:
         return 0.5 * (s * np.sqrt(1.0 - s**2) + np.arcsin(s))
 
     return np.where(x <= leaves, x * y, leaves * y + under_circle(x) - under_circle(np.minimum(leaves, x)))

@@ -5,11 +5,12 @@ Without friction and with r = 0 it spreads as `exact.paraboloid` says.
 
 import numpy as np
 
+from subslide.keys.entries import Entry
 from subslide.points import Point
 from subslide.scenes import Grid, State, still_water
 from subslide.scenes._cells import means, over_plane
 
-OPTIONS = {}
+OPTIONS: dict[str, Entry] = {}
 
 
 def symmetry(point: Point) -> str:
@@ -26,12 +27,12 @@ def initial(grid: Grid, point: Point) -> State:
     return still_water(h2, point.scaled_level)
 
 
-def depth(x: float | np.ndarray, rim: float = 1.0) -> np.ndarray:
+def depth(x: float | np.ndarray, rim: float | np.ndarray = 1.0) -> np.ndarray:
     """Return h = (1 - x^2/rim^2) / rim^2, 0 beyond the rim: the paraboloid, spread without loss of volume."""
     return (1.0 / rim) ** 2 * np.maximum(0.0, 1.0 - (x / rim) ** 2)
 
 
-def ring_mean(edges: np.ndarray, rim: float = 1.0) -> np.ndarray:
+def ring_mean(edges: np.ndarray, rim: float | np.ndarray = 1.0) -> np.ndarray:
     """Return the mean depth (n) of the rings between the radii `edges` (n + 1)."""
     s = np.minimum(edges / rim, 1.0) ** 2
     volume = s / 2 - s**2 / 4  # over 2 pi, within each radius

@@ -8,15 +8,19 @@ The file's SHA-256 becomes one of the options, so that a run's id follows what t
 import functools
 import hashlib
 import os
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from subslide.keys.entries import Entry
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
 from subslide.scenes import Grid, State, options, still_water
 
-OPTIONS = {
+if TYPE_CHECKING:
+    import netCDF4
+
+OPTIONS: dict[str, Entry] = {
     "file": {
         "description": "path of the NetCDF file, from the folder where the command runs; not an axis",
         "type": "string",
@@ -87,14 +91,14 @@ def initial(grid: Grid, point: Point) -> State:
 class Raster:
     """Depths h2 (ny, nx) at the centres x (nx) and y (ny) of pixels, in m, in increasing order."""
 
-    def __init__(self, x, y, h2):
+    def __init__(self, x: np.ndarray, y: np.ndarray, h2: np.ndarray):
         """Put the raster in increasing order."""
         self.x, self.y = np.sort(x), np.sort(y)
         self.h2 = h2[np.argsort(y)][:, np.argsort(x)]
 
     def used(self) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
         """Return (coordinates, whether there are grains) along x and along y."""
-        return (self.x, self.h2.any(axis=0)), (self.y, self.h2.any(axis=1))
+        return (self.x, np.any(self.h2, axis=0)), (self.y, np.any(self.h2, axis=1))
 
 
 def overlap(edges: np.ndarray, centres: np.ndarray) -> np.ndarray:
@@ -155,7 +159,7 @@ def read(path: str, sha256: str) -> Raster:
     return Raster(**variables)
 
 
-def _variable(data, key, name):
+def _variable(data: "netCDF4.Dataset", key: str, name: str) -> np.ndarray:
     """Return a variable in m as finite float64."""
     if key not in data.variables:
         known = ", ".join(data.variables) or "none"

@@ -103,7 +103,8 @@ def read(folder: Path) -> tuple[dict[str, str], dict[str, str]]:
 
     A file that cannot be read counts as empty: its points come anew.
     """
-    owner, kernels = {}, {}
+    owner: dict[str, str] = {}
+    kernels: dict[str, str] = {}
     for path in sorted((folder / "batches").glob("[0-9]*.json")):
         try:
             batch = json.loads(path.read_text(encoding="utf-8"))
@@ -145,7 +146,7 @@ def split(points: list[Point]) -> list[list[Point]]:
 
     The number of cores has no say, so that the files of a study do not depend on it.
     """
-    groups = {}
+    groups: dict[tuple, list[Point]] = {}
     for point in points:
         groups.setdefault((choice.kernels(point), point.dx, point.fields), []).append(point)
     total = sum(cost(point) for point in points)
@@ -184,7 +185,8 @@ def _balanced(points: list[Point], target: float) -> list[list[Point]]:
     size = sum(_bytes(point) for point in points)
     bins = max(math.ceil(total / target), math.ceil(len(points) / MOST_POINTS), math.ceil(size / MOST_BYTES))
     bins = min(bins, len(points))
-    filled, members = [0.0] * bins, [[] for _ in range(bins)]
+    filled = [0.0] * bins
+    members: list[list[int]] = [[] for _ in range(bins)]
     for n in sorted(range(len(points)), key=lambda n: (-cost(points[n]), n)):
         least = min(range(bins), key=lambda b: (filled[b], len(members[b]), b))
         filled[least] += cost(points[n])

@@ -4,8 +4,9 @@ import contextlib
 import itertools
 import math
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from subslide import catalogue, scenes
 from subslide.keys import schema, words
@@ -59,7 +60,7 @@ class Study:
     def companions(self) -> tuple[tuple[Point, str, Point], ...]:
         """Run, role and point of each companion: none without bands, else two for each run."""
         return tuple(
-            (point, role, replace(point, cells=point.cells // ratio))
+            (point, role, point.with_values(cells=point.cells // ratio))
             for point in self.points
             if self.bands
             for role, ratio in COARSENING.items()
@@ -104,13 +105,13 @@ def make_study(values: dict) -> Study:
     count = sum(math.prod(map(len, axes.values())) for _, axes in grids)
     if count > MOST_POINTS:
         raise ConfigError(f"the grid has {count} points; allowed: at most {MOST_POINTS}")
-    runs = {}
+    runs: dict[str, tuple[str, Point]] = {}
     for place, axes in grids:
         with _named(place):
             for label, point in _product(axes, bands):
                 runs.setdefault(point.id, (label, point))
-    runs = tuple(runs.values())
-    return Study(name, _chosen_figures(values, [point for _, point in runs]), runs, bands)
+    figures = _chosen_figures(values, [point for _, point in runs.values()])
+    return Study(name, figures, tuple(runs.values()), bands)
 
 
 def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
@@ -247,7 +248,7 @@ def _check_keys(values: dict, known: Collection[str] | None = None) -> None:
         )
 
 
-def _axis(key: str, value) -> list:
+def _axis(key: str, value: Any) -> list:
     """Return the values of one key along its axis, checked, without repeats."""
     if key == "scene_options":
         return scene_options.along_axes(schema.checked(key, value))

@@ -1,9 +1,13 @@
 """YAML files as mappings, with one line on whatever is wrong in them."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
+
+if TYPE_CHECKING:
+    import yaml
 
 
 def read_yaml(path: Path | str) -> dict:
@@ -40,14 +44,14 @@ def read_yaml(path: Path | str) -> dict:
     return values
 
 
-def _strict_loader():
+def _strict_loader() -> type["yaml.SafeLoader"]:
     """Return a YAML loader that refuses a key given twice; the plain one keeps the last in silence."""
     import yaml
 
     class Loader(yaml.SafeLoader):
         """Loader that is given a check of its own for mappings."""
 
-    def mapping(loader, node, deep=False):
+    def mapping(loader: yaml.SafeLoader, node: yaml.MappingNode, deep: bool = False) -> dict:
         seen = set()
         for key_node, _ in node.value:
             key = key_node.value if isinstance(key_node, yaml.ScalarNode) else str(key_node.start_mark)

@@ -99,7 +99,7 @@ def paper(row: "pd.Series") -> str:
 
 def equal(runs: "pd.DataFrame") -> list[tuple[str, ...]]:
     """Return rows, headings first: runs of the paper's method that reach their error in L_f, beside the default."""
-    rows = [
+    rows: list[tuple[str, ...]] = [
         ("a_H", "paper's method: cells", "time", "error in L_f", "default: cells", "time", "error", "factor")
     ]
     for _, row in runs_of.reached(runs[runs["quantity"] == "L_f"]).iterrows():

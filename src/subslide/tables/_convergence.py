@@ -51,7 +51,7 @@ UNKNOWN = Estimate(math.nan, math.nan, math.nan, NOT_CONVERGED)
 
 
 def estimate(
-    f1: float, f2: float, f3: float, formal: float, *, scale: float = 0.0, dtype="float64"
+    f1: float, f2: float, f3: float, formal: float, *, scale: float = 0.0, dtype: str = "float64"
 ) -> Estimate:
     """Return the `Estimate` of a quantity from its values on three grids, each twice as fine as the next.
 

@@ -8,7 +8,9 @@ from subslide import scenes
 from subslide.points import Point
 
 
-def rise(point: Point, model: str, half_width: float, energy, water, grains) -> float:
+def rise(
+    point: Point, model: str, half_width: float, energy: np.ndarray, water: np.ndarray, grains: np.ndarray
+) -> float:
     """Return the largest rise of the energy after any moment, over what the start can release: its own less at rest.
 
     Parameters

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from types import ModuleType
 
 import numpy as np
 
@@ -12,7 +13,7 @@ GAUSS = ((-math.sqrt(0.6), 5 / 18), (0.0, 8 / 18), (math.sqrt(0.6), 5 / 18))
 """Places in a cell from -1 to 1 and weights of Gauss's quadrature."""
 
 
-def errors_at(answer, point: Point, record: dict, time: float) -> Iterator[tuple[str, float]]:
+def errors_at(answer: ModuleType, point: Point, record: dict, time: float) -> Iterator[tuple[str, float]]:
     """Give quantity and error of each known answer at one time; NaN if the run ended before.
 
     Parameters
@@ -43,7 +44,7 @@ def errors_at(answer, point: Point, record: dict, time: float) -> Iterator[tuple
             yield f"x_front_{label}", 1 - front(record, n, time) / edge
 
 
-def cell_means(answer, point: Point, record: dict, time: float) -> dict[str, np.ndarray]:
+def cell_means(answer: ModuleType, point: Point, record: dict, time: float) -> dict[str, np.ndarray]:
     """Return the exact h2 and eta by cell or ring, of Gauss's quadrature with three points.
 
     Parameters
@@ -62,7 +63,8 @@ def cell_means(answer, point: Point, record: dict, time: float) -> dict[str, np.
     """
     x, dx = record["x"], float(record["dx"])
     ring = is_round(record)
-    total, size = {}, 0.0
+    total: dict[str, np.ndarray] = {}
+    size = np.zeros(len(x))
     for place, share in GAUSS:
         spot = x + 0.5 * dx * place
         share = share * np.abs(spot) if ring else share
@@ -86,7 +88,9 @@ def weights(record: dict) -> np.ndarray:
     return np.abs(x) if is_round(record) else np.ones(len(x))
 
 
-def scale(answer, point: Point, quantity: str, time: float, values: np.ndarray, weight: np.ndarray) -> float:
+def scale(
+    answer: ModuleType, point: Point, quantity: str, time: float, values: np.ndarray, weight: np.ndarray
+) -> float:
     """Return what an error is relative to, in the unit of sum(weight * |error|); 0 where nothing is compared."""
     height = point.a_2 * point.radius
     if hasattr(answer, "amplitude"):

@@ -2,7 +2,7 @@
 
 import json
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from subslide import scenes
 from subslide.tables import errors
@@ -83,7 +83,7 @@ def line(rows: "pd.DataFrame") -> Line:
     )
 
 
-def case(row) -> str:
+def case(row: Any) -> str:
     """Return the name of a row's scene, model and options that are not at their defaults."""
     defaults = scenes.defaults(row.scene)
     told = [

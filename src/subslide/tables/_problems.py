@@ -42,7 +42,7 @@ def problems(among: Iterable[Point]) -> list[Problem]:
     A problem is a column with runs in the plane and, by the default numerics, on three grids on a radius of which each
     has twice the cells of the next.
     """
-    groups = {}
+    groups: dict[str, list[Point]] = {}
     for point in among:
         if point.scene == "cylinder":
             groups.setdefault(_physics(point), []).append(point)

@@ -98,6 +98,6 @@ def _column(entries: list, number: Callable[[float], str]) -> list[str]:
     return ["" if _missing(entry) else number(float(entry)) for entry in entries]
 
 
-def _missing(entry) -> bool:
+def _missing(entry: object) -> bool:
     """Return whether an entry is None or not a number."""
     return entry is None or entry != entry

@@ -1,5 +1,6 @@
-"""The stability atlas: for each run of a study how it ended, how far it is from the converged answer, and how near the
-edge it stood: loss of hyperbolicity, growth of energy, drift of volumes.
+"""The stability atlas: how each run ended, how far it is from the converged answer, and how near the edge it stood.
+
+The edge is loss of hyperbolicity, growth of energy, and drift of volumes.
 
 The converged answer of a run is its reference: the run of the same study that is the same column with the default
 numerics on the finest grid, at least `FINER` times as fine as the run. It speaks only if it ended and, for each
@@ -8,7 +9,7 @@ quantity, if the next coarser run of the same numerics agrees with it: within `A
 """
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -102,7 +103,7 @@ def needs(study: Study) -> str:
 def table(results: "Results") -> list[dict]:
     """Return the rows, by column, in the order of the table of runs."""
     runs = results.runs.set_index("id")
-    families = {}
+    families: dict[tuple, list[tuple[str, Point]]] = {}
     for run in results.runs_of_study:
         families.setdefault(_column(run.point), []).append((run.id, run.point))
     grown = _growths(results)
@@ -163,7 +164,7 @@ def references_of(point: Point, family: list[tuple[str, Point]]) -> list[str]:
 
 def errors(point: Point, name: str, runs: "pd.DataFrame", references: list[str]) -> dict:
     """Return the entries of a row on its reference and the errors against it; `why_error` says why there are none."""
-    none = dict.fromkeys(("L_f_error", "max_abs_eta_error", "reference_L_f_change"), math.nan)
+    none: dict[str, Any] = dict.fromkeys(("L_f_error", "max_abs_eta_error", "reference_L_f_change"), math.nan)
     none |= {"reference_max_abs_eta_change": math.nan, "reference": "", "why_error": ""}
     if point.scene == "shear":
         return {**none, "why_error": f"{NO_REFERENCE}: judged by its growth rate"}

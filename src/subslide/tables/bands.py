@@ -17,7 +17,7 @@ from subslide.tables import _convergence as convergence
 from subslide.tables._convergence import FORMAL_ORDER
 
 if TYPE_CHECKING:
-    from subslide.results import Results
+    from subslide.results import Companion, Results, StudyRun
 
 TITLE = "Bands of discretisation error"
 READS = ("records",)
@@ -86,10 +86,13 @@ def table(results: "Results") -> list[dict]:
     companions = {(one.of, one.role): one for one in results.companions}
     if not companions:
         raise ConfigError(f"{results.folder} has no companions on coarser grids; allowed: bands: true")
-    known = {one.id: one for one in (*results.runs_of_study, *results.companions)}
+    known: dict[str, StudyRun | Companion] = {
+        **{run.id: run for run in results.runs_of_study},
+        **{one.id: one for one in results.companions},
+    }
     by_batch = sorted(known.values(), key=lambda one: one.batch)
     measured = {one.id: measure(record) for one, record in results.each(*MEASURED, among=by_batch)}
-    compared = []
+    compared: list[dict] = []
     for run in results.runs_of_study:
         names = (run.id, *(companions[run.id, role].id for role in COARSENING))
         compared += rows(run.point, *(measured[name] for name in names))
@@ -98,7 +101,7 @@ def table(results: "Results") -> list[dict]:
 
 def summaries(results: "Results") -> dict[str, dict[str, str]]:
     """Return the columns, as text, that the table of runs has for bands, by id of the run; none without bands."""
-    columns = {}
+    columns: dict[str, dict[str, str]] = {}
     for row in results.lines("bands") if results.companions else ():
         if row["quantity"] in ONCE:
             parts = {f"{row['quantity']}_{part}": row[part] for part in SUMMARY}
@@ -126,7 +129,9 @@ def measure(record: dict) -> Measured:
     """
     series = {f"x_front_{label}": record["x_front"][n] for label, n in FRONT_LABELS.items()}
     series.update((name, record[name]) for name in WAVES)
-    values = {(f"L_f_{label}", None): float(record["L_f"][n]) for label, n in FRONT_LABELS.items()}
+    values: dict[tuple[str, float | None], float] = {
+        (f"L_f_{label}", None): float(record["L_f"][n]) for label, n in FRONT_LABELS.items()
+    }
     for name in WAVES:
         values[f"{name}_peak", None] = float(np.nanmax(series[name], initial=-math.inf))
     snapshots = record["snapshot_time"][:-1]
@@ -155,9 +160,9 @@ def rows(point: Point, *grids: Measured) -> Iterator[dict]:
     for (quantity, time), value in fine.values.items():
         if fine.finished and math.isnan(value):
             continue
-        values = [grid.values.get((quantity, time), math.nan) for grid in grids]
+        f1, f2, f3 = (grid.values.get((quantity, time), math.nan) for grid in grids)
         estimate = convergence.UNKNOWN
         if all(grid.finished for grid in grids):
             scale = depth if quantity.startswith(WAVES) else 0.0
-            estimate = convergence.estimate(*values, FORMAL_ORDER, scale=scale, dtype=point.dtype)
-        yield dict(zip(COLUMNS, (point.id, quantity, time, *values, *estimate), strict=True))
+            estimate = convergence.estimate(f1, f2, f3, FORMAL_ORDER, scale=scale, dtype=point.dtype)
+        yield dict(zip(COLUMNS, (point.id, quantity, time, f1, f2, f3, *estimate), strict=True))

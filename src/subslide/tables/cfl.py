@@ -26,8 +26,7 @@ for, and it may bear more. On a radius the cell at the axis has twice the edge f
 """
 
 import math
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -132,7 +131,9 @@ def table(results: "Results") -> Iterator[dict]:
     return search()
 
 
-def search(cases=CASES, schemes=SCHEMES, orders=ORDERS) -> Iterator[dict]:
+def search(
+    cases: Iterable[Case] = CASES, schemes: Iterable[str] = SCHEMES, orders: Iterable[int] = ORDERS
+) -> Iterator[dict]:
     """Give a row for each Courant number tried, in the order of trial."""
     for case in cases:
         judge = resolved(case)
@@ -178,16 +179,16 @@ def point(case: Case, scheme: str, order: int, cfl: float) -> Point:
     plain = Point(scene=case.scene, scene_options=options, model=case.model, r=r, delta=0.0, boundary="wall")
     end = case.end * math.sqrt(plain.radius / (plain.g * plain.a_2))
     times = tuple(end * (n + 1) / SNAPSHOTS for n in range(SNAPSHOTS))
-    return replace(
-        plain, cells=case.cells, scheme=scheme, order=order, cfl=cfl, t_end=end, snapshot_times=times
+    return plain.with_values(
+        cells=case.cells, scheme=scheme, order=order, cfl=cfl, t_end=end, snapshot_times=times
     )
 
 
 def resolved(case: Case) -> Judge:
     """Return what the runs of a case are held against, from a run of the default numerics on FINER times the cells."""
     usual = point(case, Point.scheme, Point.order, Point.cfl)
-    fine = solve(replace(usual, cells=FINER * case.cells, model=case.resolved))
-    x = solve(replace(usual, t_end=1e-6, snapshot_times=())).x
+    fine = solve(usual.with_values(cells=FINER * case.cells, model=case.resolved))
+    x = solve(usual.with_values(t_end=1e-6, snapshot_times=())).x
     profiles = known(fine)
     return Judge(
         {name: variation(values) for name, values in profiles.items()},

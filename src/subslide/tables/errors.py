@@ -31,6 +31,8 @@ from subslide.study.config import Study
 from subslide.tables import _norms
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from subslide.results import Results
 
 TITLE = "Errors against exact solutions"
@@ -114,7 +116,8 @@ def table(results: "Results") -> list[dict]:
     """Return the rows, by column, in the order of the runs, then by time and quantity."""
     known = catalogue.names("exact")
     solved = [run for run in results.runs_of_study if run.point.scene in known]
-    rows, families = [], {}
+    rows: list[dict] = []
+    families: dict[str, list[dict]] = {}
     for run, record in results.each(*MEASURED, among=solved):
         for row in run_rows(run.point, record):
             rows.append(row)
@@ -169,14 +172,14 @@ def judge(family: list[dict]) -> None:
         coarser = row
 
 
-def order_between(coarse, fine) -> float:
+def order_between(coarse: "dict | pd.Series", fine: "dict | pd.Series") -> float:
     """Return the observed order between two rows; NaN where an error is 0 or unknown."""
     if not (coarse["error"] > 0 and fine["error"] > 0):
         return math.nan
     return math.log(coarse["error"] / fine["error"]) / math.log(fine["cells"] / coarse["cells"])
 
 
-def verdict(row, p: float, first: bool) -> str:
+def verdict(row: dict, p: float, first: bool) -> str:
     """Return the word on a row with the observed order p; see VERDICTS."""
     if not math.isfinite(row["error"]):
         return FAILED

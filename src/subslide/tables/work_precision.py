@@ -161,8 +161,8 @@ def converged(point: Point, quantity: str, *grids: np.ndarray) -> tuple[np.ndarr
     """
     scale = (1 + point.a_H) * point.a_2 * point.radius if quantity in WAVES else 0.0
     estimates = [
-        convergence.estimate(*(float(f) for f in three), convergence.FORMAL_ORDER, scale=scale)
-        for three in zip(*grids, strict=True)
+        convergence.estimate(float(f1), float(f2), float(f3), convergence.FORMAL_ORDER, scale=scale)
+        for f1, f2, f3 in zip(*grids, strict=True)
     ]
     limits = np.array([one.limit for one in estimates])
     return np.where(np.isfinite(limits), limits, grids[0]), np.array([one.band for one in estimates])
@@ -196,7 +196,7 @@ def judge(rows: list[dict]) -> None:
 
 def _families(rows: list[dict]) -> Iterator[list[dict]]:
     """Give groups of rows that differ in their cells alone."""
-    families = {}
+    families: dict[tuple, list[dict]] = {}
     for row in rows:
         families.setdefault(tuple(row[key] for key in METHOD), []).append(row)
     return iter(families.values())
@@ -210,7 +210,7 @@ def reached(runs: "pd.DataFrame") -> "pd.DataFrame":
 
 def pareto(rows: list[dict]) -> list[dict]:
     """Return the rows than which none is both as cheap and as accurate, from the cheapest to the most accurate."""
-    front = []
+    front: list[dict] = []
     known = [row for row in rows if np.isfinite(row["sure_error"])]
     for row in sorted(known, key=lambda row: (row["seconds"], row["sure_error"])):
         if row["sure_error"] < (front[-1]["sure_error"] if front else np.inf):

@@ -1,13 +1,16 @@
 """What a study's tables say of one kind of numerics: quantities over a_H and r, each with its band."""
 
 import functools
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import pandas as pd
 
 from subslide.naming import FRONT_LABELS
 from subslide.points import RUN_KEYS, paper_times
+
+if TYPE_CHECKING:
+    from subslide.results import Results
 
 THRESHOLDS = tuple(FRONT_LABELS)
 FRONT = f"x_front_{THRESHOLDS[0]}"
@@ -48,7 +51,7 @@ class Field(NamedTuple):
 class Evidence:
     """Tables of the runs of one kind of numerics that differ in a_H and r alone: those like the first of them."""
 
-    def __init__(self, results, numerics: str):
+    def __init__(self, results: "Results", numerics: str):
         runs = results.runs[results.runs["numerics"] == numerics]
         for key in RUN_KEYS:
             if key in runs and key not in ("a_H", "r", "snapshot_times") and len(runs):

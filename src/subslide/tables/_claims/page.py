@@ -1,5 +1,6 @@
 """The table of claims as a page to read: a row a claim, verdicts in bold, numbers below them."""
 
+from collections.abc import Iterable
 from html import escape
 
 from subslide.tables._claims.words import OPEN, REFUTED, SUPPORTED
@@ -34,7 +35,7 @@ def html(rows: list[dict], kinds: dict[str, str]) -> str:
 """
 
 
-def _row(row: dict, columns) -> str:
+def _row(row: dict, columns: Iterable[str]) -> str:
     """Return the line of a claim."""
     words, section, measure = (escape(row[key]) for key in ("claim", "section", "measure"))
     claim = f"<b>{words}</b> (section {section})<br><small>{measure}</small>"

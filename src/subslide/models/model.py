@@ -1,0 +1,70 @@
+"""What the solver calls of a model, whatever its geometry."""
+
+from abc import ABC, abstractmethod
+
+import numpy as np
+
+from subslide.kernels.arrays import Cells, Settings, Track
+from subslide.models.limits import first_sheared, first_suspect
+
+
+class Model(ABC):
+    """State on a grid, and the time loop that moves it.
+
+    Attributes
+    ----------
+    name
+        The model's name, one of `keys.names.MODELS`.
+    settings
+        Scaled numbers in the working precision.
+    variables
+        Fields of `cells` that make the state.
+    cells
+        State of the padded grid.
+    level
+        The undisturbed surface over H2, in the working precision.
+    x, half_width
+        Centres (nx) of the cells along x, and the end of the box, over R.
+    dimensions
+        2 in the plane and on a radius, 1 on a line.
+    copies
+        How many times the grid makes up the whole: 4 for a quarter, else 1.
+    """
+
+    name: str
+    settings: Settings
+    variables: tuple[str, ...]
+    cells: Cells
+    level: float
+    x: np.ndarray
+    half_width: float
+    dimensions: int
+    copies: int
+
+    @abstractmethod
+    def advance(self, thresholds: tuple[float, ...], track: Track) -> None:
+        """Run the time loop until the clock's stop, the end of the run, or no room for samples.
+
+        Parameters
+        ----------
+        thresholds
+            Depths over H2 at which a front ends, in the working precision.
+        track
+            Clock, samples and counters, which the loop moves on.
+        """
+
+    @abstractmethod
+    def profile(self) -> dict[str, np.ndarray]:
+        """Return h2 and eta - level over H2 along x, each (nx), as float64 copies by name."""
+
+    def fields(self) -> dict[str, np.ndarray] | None:
+        """Return h2 and eta - level over H2, each (ny, nx), as float64 copies by name; None but in the plane."""
+        return None
+
+    def suspect(self) -> str:
+        """Return where the state is first not finite or negative, and what stands there, in words."""
+        return first_suspect(self.cells, self.variables)
+
+    def sheared(self) -> str:
+        """Return where wave speeds are first complex, and the state there, in words; '' if nowhere."""
+        return first_sheared(self.cells, self.variables, self.settings)
