@@ -11,7 +11,7 @@ from subslide.points import Point
 from subslide.solver import solve
 from subslide.study import cautions, config
 from subslide.tables import _energy as energy
-from subslide.tables.atlas import GAINED
+from subslide.tables._energy import GAINED
 
 REGIONS = {region.name: region for region in cautions.REGIONS}
 

@@ -13,12 +13,13 @@ from matplotlib.patches import Patch
 from subslide import naming
 from subslide.figures import _style, _words
 from subslide.points import Point
-from subslide.tables import atlas
+from subslide.tables import _methods
+from subslide.tables._energy import GAINED
 
 if TYPE_CHECKING:
     from subslide.results import Results
 
-USUAL = {key: getattr(Point(), key) for key in atlas.VARIANTS}
+USUAL = {key: getattr(Point(), key) for key in _methods.VARIANTS}
 """Default of each column that tells variants of a method apart."""
 SCALE = (0.0, 0.3)
 """Errors of L_f that the colours span."""
@@ -35,7 +36,7 @@ OUTCOMES = {
 OUTCOME_WORDS = {
     "failed": "failed (step_collapse, diverged or negative_depth)",
     "left_domain": "left the largest box",
-    "gained": f"ended well, but energy rose by over {atlas.GAINED:.0%} of what the start can release",
+    "gained": f"ended well, but energy rose by over {GAINED:.0%} of what the start can release",
 }
 
 
@@ -167,7 +168,7 @@ def outcome(row: pd.Series) -> str | None:
     """Return how a run went wrong, one of `OUTCOMES`, or None."""
     if row["status"] not in naming.FINISHED:
         return "left_domain" if row["status"] == "left_domain" else "failed"
-    return "gained" if row["energy_rise"] > atlas.GAINED else None
+    return "gained" if row["energy_rise"] > GAINED else None
 
 
 def contour(ax: Axes, resolved: pd.DataFrame, sides: Sides) -> None:

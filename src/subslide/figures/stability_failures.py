@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from subslide import naming
 from subslide.figures import _atlas, _slices, _style, _words
 from subslide.points import RUN_KEYS, Point
-from subslide.tables import atlas
+from subslide.tables._energy import GAINED
 
 if TYPE_CHECKING:
     from subslide.results import Results
@@ -129,7 +129,7 @@ def film(ax: Axes, results: "Results") -> str | None:
 def quiet(ax: Axes, results: "Results") -> str | None:
     """Draw a run that ended well although its energy rose; return the title, or None without such a run."""
     rows = usual(results)
-    rows = rows[rows["status"].isin(naming.FINISHED) & (rows["energy_rise"] > atlas.GAINED)]
+    rows = rows[rows["status"].isin(naming.FINISHED) & (rows["energy_rise"] > GAINED)]
     if rows.empty:
         return None
     row = rows.sort_values(["energy_rise", "id"]).iloc[-1]

@@ -1,7 +1,6 @@
 """Growth of a small wave between layers that slide over each other: measured rates beside linear theory."""
 
 import json
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,7 +9,7 @@ from matplotlib.lines import Line2D
 
 from subslide import exact
 from subslide.figures import _style, _words
-from subslide.points import Point
+from subslide.points import Point, replace
 
 if TYPE_CHECKING:
     from subslide.results import Results

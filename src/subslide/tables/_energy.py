@@ -7,6 +7,9 @@ import numpy as np
 from subslide import scenes
 from subslide.points import Point
 
+GAINED = 0.1
+"""Rise of the energy, over what the start can release, from which an answer is wrong although the run ended well."""
+
 
 def rise(
     point: Point, model: str, half_width: float, energy: np.ndarray, water: np.ndarray, grains: np.ndarray

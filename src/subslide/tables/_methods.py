@@ -2,15 +2,22 @@
 
 from typing import TYPE_CHECKING
 
+from subslide.keys import schema
 from subslide.naming import FINISHED
 from subslide.points import Point
 from subslide.study import cautions
-from subslide.tables import atlas
+from subslide.tables._energy import GAINED
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from subslide.results import Results
+
+VARIANTS = (
+    *(key for key in schema.with_role("method") if key not in ("model", "scheme", "order", "cells")),
+    "friction",
+)
+"""Keys whose defaults the table of methods keeps to."""
 
 
 def methods(table: "pd.DataFrame") -> "pd.DataFrame":
@@ -28,7 +35,7 @@ def methods(table: "pd.DataFrame") -> "pd.DataFrame":
     """
     import pandas as pd
 
-    usual = {key: getattr(Point(), key) for key in atlas.VARIANTS}
+    usual = {key: getattr(Point(), key) for key in VARIANTS}
     chosen = table[(table["scene"] == "cylinder") & (table["model"] == "radial") & (table["t_end"] == "rest")]
     for key, value in usual.items():
         chosen = chosen[chosen[key] == value]
@@ -42,7 +49,7 @@ def methods(table: "pd.DataFrame") -> "pd.DataFrame":
                 "method": f"{scheme.upper()}, order {order}",
                 "runs": len(runs),
                 "failed": int((~ended & (runs["status"] != "left_domain")).sum()),
-                "gained energy": int((ended & (runs["energy_rise"] > atlas.GAINED)).sum()),
+                "gained energy": int((ended & (runs["energy_rise"] > GAINED)).sum()),
                 "left the box": int((runs["status"] == "left_domain").sum()),
                 "judged": int(runs["L_f_error"].notna().sum()),
                 **{
@@ -71,7 +78,7 @@ def unguarded(results: "Results") -> list[str]:
     """Return the ids of the runs that failed or gained energy and lie in no region of the cautions."""
     points = {run.id: run.point for run in results.runs_of_study}
     table = results.atlas
-    harmed = ~table["status"].isin([*FINISHED, "hyperbolicity_lost"]) | (table["energy_rise"] > atlas.GAINED)
+    harmed = ~table["status"].isin([*FINISHED, "hyperbolicity_lost"]) | (table["energy_rise"] > GAINED)
     return [name for name in table.loc[harmed, "id"] if not cautions.regions_of(points[name])]
 
 

@@ -5,13 +5,13 @@ import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from subslide import scenes
-from subslide.tables import errors
+from subslide.tables import _verdicts as verdicts
 from subslide.tables._aligned import aligned
 
 if TYPE_CHECKING:
     import pandas as pd
 
-GROUP = ["case", "quantity", *(key for key in errors.METHOD if key not in ("model", "cells"))]
+GROUP = ["case", "quantity", *(key for key in verdicts.METHOD if key not in ("model", "cells"))]
 """Columns that tell lines apart: a case names its model, and cells are what a line runs over."""
 
 HEADINGS = ("case", "quantity", "scheme", "order", "cells", "errors", "observed", "expected", "verdict")
@@ -59,15 +59,15 @@ def lines(table: "pd.DataFrame") -> list[Line]:
 def line(rows: "pd.DataFrame") -> Line:
     """Return the line of the rows, sorted by cells, of one scheme on several grids."""
     first, last = rows.iloc[0], rows.iloc[-1]
-    p = errors.order_between(first, last) if len(rows) > 1 else math.nan
+    p = verdicts.order_between(first, last) if len(rows) > 1 else math.nan
     word = last["verdict"]
-    if word in (errors.REACHED, errors.BELOW):
-        word = errors.REACHED if p >= last["expected_order"] else errors.BELOW
+    if word in (verdicts.REACHED, verdicts.BELOW):
+        word = verdicts.REACHED if p >= last["expected_order"] else verdicts.BELOW
     if not rows["error"].notna().all():
-        word = errors.FAILED
-    elif (rows["verdict"] == errors.MOVED).any():
-        word = errors.MOVED
-    required = any(key in (last["scene"], f"{last['scene']} {last['model']}") for key in errors.REQUIRED)
+        word = verdicts.FAILED
+    elif (rows["verdict"] == verdicts.MOVED).any():
+        word = verdicts.MOVED
+    required = any(key in (last["scene"], f"{last['scene']} {last['model']}") for key in verdicts.REQUIRED)
     still = last["quantity"] == "h2_change"
     return Line(
         case=last["case"],
@@ -79,7 +79,7 @@ def line(rows: "pd.DataFrame") -> Line:
         observed=p,
         expected=float(last["expected_order"]),
         verdict=word,
-        missed=(required or still) and word not in (errors.REACHED, errors.STILL),
+        missed=(required or still) and word not in (verdicts.REACHED, verdicts.STILL),
     )
 
 

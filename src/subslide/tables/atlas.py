@@ -19,6 +19,7 @@ from subslide.naming import FINISHED
 from subslide.points import RUN_KEYS, Point, options_text
 from subslide.study.config import Study
 from subslide.tables import _energy as energy
+from subslide.tables import _methods
 from subslide.tables._prose import with_constants
 
 if TYPE_CHECKING:
@@ -37,12 +38,7 @@ NUMERICS = schema.with_role("method")
 """Keys that say how a column is solved; runs that differ in no other key have one answer."""
 ASIDE = schema.with_role("output")
 """Keys that change neither the answer nor how it is found."""
-VARIANTS = (*(key for key in NUMERICS if key not in ("model", "scheme", "order", "cells")), "friction")
-"""Keys whose defaults the table of methods keeps to."""
-
 NO_REFERENCE, REFERENCE = "no reference", "is the reference"
-GAINED = 0.1
-"""Rise of the energy, over what the start can release, from which an answer is wrong although the run ended well."""
 COLUMNS = {
     "id": ("", "name of the run"),
     **{
@@ -130,8 +126,6 @@ def table(results: "Results") -> list[dict]:
 
 def text(results: "Results") -> str:
     """Return what the atlas says of each method, and failures that no caution speaks of."""
-    from subslide.tables import _methods
-
     return _methods.text(results)
 
 

@@ -28,17 +28,28 @@ from subslide.keys import schema, words
 from subslide.naming import FRONT_LABELS
 from subslide.points import Point, options_text, to_dict
 from subslide.study.config import Study
-from subslide.tables import _norms
+from subslide.tables import _norms, _orders
+from subslide.tables._verdicts import (
+    BELOW,
+    EXPECTED,
+    FAILED,
+    FIRST,
+    METHOD,
+    MOVED,
+    NONE,
+    REACHED,
+    REQUIRED,
+    STILL,
+    VERDICTS,
+    order_between,
+)
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from subslide.results import Results
 
 TITLE = "Errors against exact solutions"
 READS = ("records",)
 FLOAT_FORMAT = "%.10g"
-METHOD = schema.with_role("method")
 COLUMNS = {
     "id": ("", "name of the run"),
     "scene": ("", "initial state"),
@@ -65,26 +76,6 @@ QUANTITIES = {
     },
     "h2_change": "grains that must stay at rest: largest change of their depth since the start, over H2",
 }
-REACHED, BELOW, FIRST, FAILED, NONE = "reached", "below", "first grid", "failed", "no expectation"
-STILL, MOVED = "still", "moved"
-VERDICTS = {
-    REACHED: "the observed order is at least the expected one",
-    BELOW: "it is not",
-    FIRST: "the study has no coarser run to compare with",
-    FAILED: "the run ended before that time, or the coarser one did",
-    NONE: "no order is expected",
-    STILL: "grains at rest did not move by a bit",
-    MOVED: "grains at rest moved",
-}
-EXPECTED = {
-    "standing_wave": (0.9, 1.8),
-    "paraboloid one-layer": (0.6, 1.6),
-    "paraboloid": (0.6, 1.0),
-    "dam_break": (0.6, 0.8),
-}
-"""Least expected orders of schemes of first and second order, by scene, or by scene and model."""
-REQUIRED = ("standing_wave", "paraboloid one-layer")
-"""Keys of EXPECTED without which `subslide verify` fails; so do grains at rest that move."""
 MEASURED = ("x", "h2", "eta", "snapshot_time", "time", "x_front", "dx", "model")
 """Variables of records that the table follows from."""
 
@@ -129,8 +120,6 @@ def table(results: "Results") -> list[dict]:
 
 def text(results: "Results") -> str:
     """Return errors and observed orders as lines to read."""
-    from subslide.tables import _orders
-
     return _orders.text(_orders.lines(results.errors)) if len(results.errors) else "no run has a known answer"
 
 
@@ -170,13 +159,6 @@ def judge(family: list[dict]) -> None:
         p = order_between(coarser, row) if coarser else math.nan
         row |= {"observed_order": p, "verdict": verdict(row, p, coarser is None)}
         coarser = row
-
-
-def order_between(coarse: "dict | pd.Series", fine: "dict | pd.Series") -> float:
-    """Return the observed order between two rows; NaN where an error is 0 or unknown."""
-    if not (coarse["error"] > 0 and fine["error"] > 0):
-        return math.nan
-    return math.log(coarse["error"] / fine["error"]) / math.log(fine["cells"] / coarse["cells"])
 
 
 def verdict(row: dict, p: float, first: bool) -> str:
