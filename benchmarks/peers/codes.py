@@ -4,7 +4,6 @@ import csv
 import json
 import subprocess
 import tempfile
-from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -76,7 +75,7 @@ def subslide(order, cells, times, **options):
         "t_end": times[-1],
         "snapshot_times": tuple(times),
     }
-    point = replace(COLUMN, **keys | options)
+    point = COLUMN.with_values(**keys | options)
     run = solver.solve(point, threads=1)
     if run.status != "ok":
         raise RuntimeError(f"subslide: {run.status_detail}")

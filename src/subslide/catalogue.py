@@ -60,7 +60,20 @@ def table(name: str) -> Table:
 
 
 def literals(room: str, name: str) -> dict[str, Any]:
-    """Return the constants of a plug-in, by name, whose values are literals in its source."""
+    """Return the constants of a plug-in, by name, whose values are literals in its source.
+
+    Parameters
+    ----------
+    room
+        Folder of the package, as for `names`.
+    name
+        Name of the plug-in.
+
+    Returns
+    -------
+    dict
+        Values by the constants' names.
+    """
     constants = {}
     for constant, value in _constants(room, name).items():
         try:
@@ -71,7 +84,13 @@ def literals(room: str, name: str) -> dict[str, Any]:
 
 
 def columns(name: str) -> list[str]:
-    """Return the columns of a table whose names its module states as they are."""
+    """Return the columns of a table whose names its module states as they are.
+
+    Raises
+    ------
+    ValueError
+        If the module has no mapping COLUMNS.
+    """
     stated = _constants("tables", name).get("COLUMNS")
     if not isinstance(stated, ast.Dict):
         raise ValueError(f"the table {name} has no COLUMNS")

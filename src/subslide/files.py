@@ -32,13 +32,29 @@ def replacing(path: Path | str) -> Iterator[Path]:
 
 
 def write_text(path: Path | str, text: str) -> None:
-    """Write a text to a file, whole or not at all."""
+    """Write a text to a file, whole or not at all.
+
+    Parameters
+    ----------
+    path
+        The file; its folder is there.
+    text
+        What it is to hold, written as UTF-8.
+    """
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
 
 def write_json(path: Path | str, value: Any) -> None:
-    """Write a value as JSON to a file, whole or not at all; a file that holds it already is not touched."""
+    """Write a value as JSON to a file, whole or not at all; a file that holds it already is not touched.
+
+    Parameters
+    ----------
+    path
+        The file; its folder is there.
+    value
+        What JSON can hold, without NaN.
+    """
     text = json.dumps(value, indent=1, allow_nan=False) + "\n"
     with contextlib.suppress(OSError, UnicodeDecodeError):
         if Path(path).read_text(encoding="utf-8") == text:

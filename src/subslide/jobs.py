@@ -18,11 +18,23 @@ from subslide.study.batches import read_batch
 from subslide.study.yaml_files import read_yaml
 
 if TYPE_CHECKING:
-    from subslide.solver import Run
+    from subslide.solver.run import Run
 
 
 def point_of(path: str | None, options: dict[str, str]) -> Point:
-    """Return the point of a configuration file, if any, and of options (texts by key), which win.
+    """Return the point that a configuration file and options ask for.
+
+    Parameters
+    ----------
+    path
+        YAML file of one point, if any.
+    options
+        Texts by key, which win over the file.
+
+    Returns
+    -------
+    Point
+        The point, checked.
 
     Raises
     ------
@@ -41,7 +53,20 @@ def point_of(path: str | None, options: dict[str, str]) -> Point:
 
 
 def check_output(path: str, inputs: list[str]) -> None:
-    """Raise a ConfigError unless a file can be written at `path`, which is none of the inputs."""
+    """Raise a ConfigError unless a file can be written.
+
+    Parameters
+    ----------
+    path
+        Where it is to be.
+    inputs
+        Files that it must not be.
+
+    Raises
+    ------
+    ConfigError
+        If the path is a folder or an input, or its folder is missing or cannot be written to.
+    """
     target = Path(path)
     folder = target.parent
     if target.is_dir():
@@ -65,7 +90,22 @@ def set_threads(threads: int) -> None:
 
 
 def run(point: Point, threads: int, output: str) -> str:
-    """Solve a point, write its record to `output` and return the line that tells the outcome."""
+    """Solve a point and write its record.
+
+    Parameters
+    ----------
+    point
+        The run.
+    threads
+        Cores for it.
+    output
+        Path of the record.
+
+    Returns
+    -------
+    str
+        The line that tells the outcome.
+    """
     from subslide.records import netcdf as records
 
     result = solved(point, threads, _progress() if sys.stderr.isatty() else None)
@@ -82,9 +122,26 @@ def solved(point: Point, threads: int, progress: Callable[[float], object] | Non
 
 
 def batch(spec: str, threads: int, output: str) -> Iterator[str]:
-    """Solve the points of a batch file and yield a line as each run ends.
+    """Solve the points of a batch file into one record.
 
-    Then its record is at `output`, and the record's SHA-256 in `output`.sha256.
+    Parameters
+    ----------
+    spec
+        Path of the batch file.
+    threads
+        Cores for each run.
+    output
+        Path of the record; its SHA-256 goes to `output`.sha256.
+
+    Yields
+    ------
+    str
+        A line as each run ends, and one on the record once it is written.
+
+    Raises
+    ------
+    ConfigError
+        If the file is no batch file, see `study.batches.read_batch`.
     """
     from subslide.records import netcdf as records
 
@@ -100,7 +157,13 @@ def batch(spec: str, threads: int, output: str) -> Iterator[str]:
 
 
 def warm(kernels: tuple[str, ...]) -> Iterator[str]:
-    """Compile kernels, named 'model:dtype[:general]', into the cache by a tiny run of each; yield a line for each."""
+    """Compile kernels, named 'model:dtype[:general]', into the cache by a tiny run of each; yield a line for each.
+
+    Raises
+    ------
+    ConfigError
+        If a name is none of compiled code.
+    """
     from subslide import solver
 
     for kernel in kernels:

@@ -38,7 +38,22 @@ def paper_times(radius: float) -> tuple[float, ...]:
 
 
 def edge_time(a_H: float, a_2: float, radius: float, g: float) -> float:
-    """Return the time (s) when the first wave, from R at sqrt(g (H1 + H2)), is at the edge of the paper's box."""
+    """Return when the first wave, from R at sqrt(g (H1 + H2)), is at the edge of the paper's box.
+
+    Parameters
+    ----------
+    a_H, a_2
+        H1/H2 and H2/R.
+    radius
+        Radius R (m).
+    g
+        Gravity (m s-2).
+
+    Returns
+    -------
+    float
+        Time (s) since release.
+    """
     return (PAPER_BOX - 1) * radius / math.sqrt(g * a_2 * radius * (1 + a_H))
 
 

@@ -4,14 +4,13 @@ import csv
 import functools
 import json
 import math
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, overload
 
 import numpy as np
 
 from subslide import catalogue
-from subslide.files import RecordError
 from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS, Point, from_dict
 
@@ -55,6 +54,7 @@ class Results:
     """
 
     def __init__(self, folder: Path | str):
+        """Keep the folder; nothing is read before it is asked for."""
         self.folder = Path(folder)
 
     @functools.cached_property
@@ -113,6 +113,8 @@ class Results:
         RecordError
             If a record is missing or damaged, or lacks the run.
         """
+        from subslide.records import by_run
+
         runs = list(self.runs_of_study if among is None else among)
         paths = {run.batch: self._record_path(run.batch) for run in runs}
         size = sum(path.stat().st_size for path in paths.values() if path.exists())
@@ -122,11 +124,17 @@ class Results:
             held: dict[str, dict[str, Any]] = {}
             for batch in dict.fromkeys(run.batch for run in part):
                 ids = {run.id for run in part if run.batch == batch}
-                held |= _of_runs(paths[batch], ids, names)
+                held |= by_run.read(paths[batch], ids, names)
             yield from ((run, held[run.id]) for run in part)
 
     def record(self, name: str) -> "xr.Dataset":
-        """Return the record of one run by its id, loaded, without the dimension `run` and without padding."""
+        """Return the record of one run by its id, loaded, without the dimension `run` and without padding.
+
+        Raises
+        ------
+        KeyError
+            If the study has no such run.
+        """
         for run in self.runs_of_study:
             if run.id == name:
                 return trimmed(self.batch(run.batch), name).load()
@@ -235,7 +243,20 @@ def open_record(path: Path | str) -> "xr.Dataset":
 
 
 def trimmed(data: "xr.Dataset", name: str) -> "xr.Dataset":
-    """Return the run called `name` of a record, without the padding that other runs of its batch need."""
+    """Return one run of a record, without the padding that other runs of its batch need.
+
+    Parameters
+    ----------
+    data
+        Dataset of the record.
+    name
+        Id of the run.
+
+    Returns
+    -------
+    xarray.Dataset
+        The same without the dimension `run`, as lazy as it was.
+    """
     place = int(np.flatnonzero(data["id"].values == name)[0])
     one = data.isel(run=place)
     one = one.isel(step=slice(int(np.isfinite(one["time"].values).sum())))
@@ -256,35 +277,3 @@ def _empty(name: str) -> "pd.DataFrame":
     import pandas as pd
 
     return pd.DataFrame(columns=catalogue.columns(name))
-
-
-def _of_runs(path: Path, ids: Collection[str], names: Collection[str]) -> dict[str, dict[str, Any]]:
-    """Return the variables called `names` of the runs called `ids` of a record, by id; nothing else stays in memory."""
-    from subslide.records import netcdf
-
-    variables, _ = netcdf.read(path)
-    places = {name: n for n, name in enumerate(variables["id"].values)}
-    if lacking := sorted(set(ids) - set(places)):
-        raise RecordError(f"{path}: the record lacks the run {lacking[0]}")
-    wanted = {name: variables[name] for name in names if name in variables}
-    return {name: _of_run(variables, wanted, places[name]) for name in ids}
-
-
-def _of_run(variables: dict, wanted: dict, place: int) -> dict[str, Any]:
-    """Return the wanted variables of the run at a place of a record, without padding, as copies."""
-    cells = np.isfinite(variables["h2"].values[place, 0])
-    kept = {
-        "step": slice(int(np.isfinite(variables["time"].values[place]).sum())),
-        "snapshot": slice(int(np.isfinite(variables["snapshot_time"].values[place]).sum())),
-        "x": cells,
-        "y": cells,
-    }
-    parts = {}
-    for name, variable in wanted.items():
-        dims, values = variable.dims, variable.values
-        if dims[:1] == ("run",):
-            dims, values = dims[1:], values[place]
-        for axis, dim in enumerate(dims):
-            values = values[(*[slice(None)] * axis, kept.get(dim, slice(None)))]
-        parts[name] = values.copy() if dims else values
-    return parts

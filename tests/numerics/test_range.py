@@ -4,7 +4,6 @@
 """
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -78,7 +77,7 @@ def drive(count, points, judge):
 
 def bounded(point):
     """The point with an end in bounded scaled time."""
-    return replace(point, t_end=SCALED_TIME * math.sqrt(point.radius / (point.g * point.a_2)))
+    return point.with_values(t_end=SCALED_TIME * math.sqrt(point.radius / (point.g * point.a_2)))
 
 
 def ends_well(run):

@@ -18,7 +18,8 @@ from subslide.kernels.edge.water import water_edge_fluxes
 from subslide.kernels.waves import outer_bounds, outer_speeds, water_speeds
 from subslide.models.build import build
 from subslide.points import Point
-from subslide.solver import DRY_DEPTH, thresholds
+from subslide.solver import DRY_DEPTH
+from subslide.solver.loop import thresholds
 
 DEPTHS = st.floats(0.0, 3.0) | st.sampled_from([0.0, 1e-9, 1.0])
 SPEEDS = st.floats(-2.0, 2.0)

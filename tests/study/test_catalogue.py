@@ -70,6 +70,20 @@ def test_columns_and_literals_are_read_from_sources():
     }
 
 
+def test_constants_with_a_type_are_read_too(tmp_path, monkeypatch):
+    (tmp_path / "tables").mkdir()
+    text = (
+        'TITLE: str = "a title"\nREADS = ("runs",)\nLATER: int\nCOLUMNS: dict[str, tuple] = {"a": ("", "")}\n'
+    )
+    (tmp_path / "tables" / "typed.py").write_text(text)
+    (tmp_path / "tables" / "bare.py").write_text("TITLE = 'no columns'\n")
+    monkeypatch.setattr(catalogue, "PACKAGE", tmp_path)
+    assert catalogue.table("typed") == ("a title", "5 Tables", ("runs",), ())
+    assert catalogue.columns("typed") == ["a"]
+    with pytest.raises(ValueError, match="bare has no COLUMNS"):
+        catalogue.columns("bare")
+
+
 def test_parts_of_the_sources_follow_the_rooms(tmp_path, monkeypatch):
     """Each edit changes the hashes of what it can change, and no other."""
     from shutil import copytree

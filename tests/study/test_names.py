@@ -1,7 +1,5 @@
 """Names: their integers are those of compiled code, and what is not lean asks for the general kernels."""
 
-from dataclasses import replace
-
 import pytest
 
 from subslide.keys import names, schema
@@ -53,11 +51,11 @@ def test_general_kernels_are_for_what_lean_ones_leave_out_alone():
         values = [True, False] if about.get("type") == "boolean" else about.get("enum", ())
         for value in values:
             if key not in ("scene", "model"):
-                assert choice.of(replace(Point(), **{key: value})).general == ((key, value) in GENERAL)
+                assert choice.of(Point().with_values(**{key: value})).general == ((key, value) in GENERAL)
 
 
 def test_a_choice_is_made_once():
     point = Point(r=0.123)
     assert choice.of(point) is choice.of(Point(r=0.123))
     assert choice.of(point) == ("radial", "radius", "auto: round scene", False)
-    assert choice.kernels(replace(point, scheme="roe", dtype="float32")) == "radial:float32:general"
+    assert choice.kernels(point.with_values(scheme="roe", dtype="float32")) == "radial:float32:general"

@@ -2,7 +2,7 @@
 
 import math
 import pickle
-from dataclasses import FrozenInstanceError, replace
+from dataclasses import FrozenInstanceError
 
 import pytest
 from hypothesis import given
@@ -58,7 +58,7 @@ def test_ids_are_pinned():
 
 @pytest.mark.parametrize("key", points.RUN_KEYS)
 def test_every_key_enters_the_id(key):
-    assert replace(Point(), **{key: OTHER[key]}).id != Point().id
+    assert Point().with_values(**{key: OTHER[key]}).id != Point().id
 
 
 def test_how_a_number_is_written_does_not_matter():
@@ -116,6 +116,15 @@ def test_a_point_is_made_of_the_keys_of_a_run_and_cannot_be_changed():
         Point().r = 0.1
     with pytest.raises(TypeError, match="foo"):
         Point(foo=1)
+
+
+def test_a_point_with_other_values_is_another_point():
+    point = Point(r=0.1, cells=100)
+    assert point.id != point.with_values(cells=50).id == Point(r=0.1, cells=50).id
+    assert point == Point(r=0.1, cells=100)
+    assert point.with_values() == point
+    with pytest.raises(TypeError, match="foo"):
+        point.with_values(foo=1)
 
 
 def test_a_point_knows_what_follows_from_it():

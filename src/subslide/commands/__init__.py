@@ -34,4 +34,4 @@ class Verbs(click.Group):
 @click.group(cls=Verbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
 @click.version_option(subslide.__version__, prog_name="subslide")
 def cli() -> None:
-    """Collapse of submerged granular columns: two-layer Coulomb runs, records, tables and figures."""
+    """Solve the collapse of submerged granular columns: two-layer Coulomb runs, records, tables and figures."""

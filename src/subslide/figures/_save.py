@@ -10,7 +10,7 @@ from subslide.keys.schema import ConfigError
 
 
 def save(name: str, results: Path, output: Path) -> list[Path]:
-    """Write a figure as PNG and SVG, the same bytes for the same results, and return their paths.
+    """Write a figure as PNG and SVG, the same bytes for the same results.
 
     Parameters
     ----------
@@ -20,6 +20,11 @@ def save(name: str, results: Path, output: Path) -> list[Path]:
         Folder of a finished study.
     output
         Folder of the files; it is made if it is not there.
+
+    Returns
+    -------
+    list of Path
+        The two files.
 
     Raises
     ------

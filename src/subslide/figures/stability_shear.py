@@ -111,4 +111,6 @@ def theory(point: Point, largest: float) -> tuple[np.ndarray, list[float]]:
     x = np.linspace(0.0, largest, 241)
     options = dict(point.scene_options)
     rate = exact.load("shear").growth_rate
-    return x, [rate(replace(point, scene_options=tuple(sorted({**options, "shear": v}.items())))) for v in x]
+    return x, [
+        rate(point.with_values(scene_options=tuple(sorted({**options, "shear": v}.items())))) for v in x
+    ]

@@ -7,7 +7,7 @@ from subslide.kernels.reconstruct import depth_slopes, grain_slopes, mc, rates
 
 @inlined
 def faces(s, c, left, right, terms, source, start, stop, dt):
-    """Second order: the states at both faces of cells, half a step on, and the pressure products across them.
+    """Fill the states at both faces of cells, half a step on, and the pressure products across them: second order.
 
     `source` is `Mesh.source`. Grains that friction can stop are not accelerated in the half step; moving ones feel no
     friction in it (more accurate on coarse grids, measured).

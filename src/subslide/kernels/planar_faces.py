@@ -28,7 +28,7 @@ def put(low, high, b, u, i, state, slopes):
 
 @inlined
 def faces(s, c, terms, j, sides, b, u, start, stop, dt):
-    """Second order: the states at the four faces of the padded row j, half a step on, and the inner pressure products.
+    """Fill the states at the four faces of the padded row j, half a step on, and the inner pressure products.
 
     They go to row b of `left`, `right`, `lower` and row u of `upper`, the four `sides`. Grains that friction can stop
     are not accelerated in the half step; moving ones feel no friction in it (more accurate on coarse grids, measured).

@@ -30,15 +30,40 @@ PHYSICS, SCENE, METHOD, OUTPUT = "physics", "scene", "method", "output"
 
 
 def number(role: str, description: str, default: float, unit: str = "1", **limits: float) -> Entry:
-    """Return the entry of a key that takes a number within ``limits`` (``minimum``, ``exclusiveMaximum``, ...)."""
+    """Return the entry of a key that takes a number.
+
+    Parameters
+    ----------
+    role, description, default, unit
+        What the entry says, see above.
+    limits
+        Range, in the words of JSON Schema: ``minimum``, ``exclusiveMaximum``, ...
+
+    Returns
+    -------
+    Entry
+        The entry, of an axis.
+    """
     about = {"type": "number", **limits, "default": default, "unit": unit}
     return {"role": role, "description": description, **about, "axis": True}
 
 
 def choice(role: str, description: str, default: Any, values: Any, listed: Callable = list) -> Entry:
-    """Return the entry of a key that takes one of some values, in the order that ``listed`` gives them.
+    """Return the entry of a key that takes one of some values.
 
-    A mapping of `subslide.keys.names` says which values are lean.
+    Parameters
+    ----------
+    role, description, default
+        What the entry says, see above.
+    values
+        Values, or a mapping of `subslide.keys.names`, which says which of them are lean.
+    listed
+        Function that puts them in order.
+
+    Returns
+    -------
+    Entry
+        The entry, of an axis.
     """
     about = {"enum": list(listed(values)), "default": default, "axis": True}
     if isinstance(values, dict) and not all(values.values()):

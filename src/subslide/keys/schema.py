@@ -61,6 +61,11 @@ def checked(key: str, value: Any, name: str = "") -> Any:
     name
         What messages call the key, if it is not its name.
 
+    Returns
+    -------
+    object
+        The value; a whole number as an integer where the key takes no other.
+
     Raises
     ------
     ConfigError
@@ -72,10 +77,24 @@ def checked(key: str, value: Any, name: str = "") -> Any:
 def conform(about: Entry, value: Any, name: str) -> Any:
     """Return a value as an entry wants it, such as that of a scene's option.
 
+    Parameters
+    ----------
+    about
+        Entry of a key or an option.
+    value
+        What a file or an option of the command line gives for it.
+    name
+        What messages call it.
+
+    Returns
+    -------
+    object
+        The value; a whole number as an integer where the entry takes no other.
+
     Raises
     ------
     ConfigError
-        If the value is not allowed: one line, which calls the key ``name``.
+        If the value is not allowed: one line.
     """
     import fastjsonschema
 

@@ -10,7 +10,20 @@ from subslide.keys.entries import ENTRIES, Entry
 
 
 def closest(name: Any, known: Iterable[str]) -> str:
-    """Return '; did you mean ...?' for the known name that is nearest to a mistyped one, or ''."""
+    """Return a hint at the known name that is nearest to a mistyped one.
+
+    Parameters
+    ----------
+    name
+        What was given, text as a rule.
+    known
+        Names that are allowed.
+
+    Returns
+    -------
+    str
+        "; did you mean '...'?", or '' if none is near.
+    """
     lower = {other.lower(): other for other in known}
     near = difflib.get_close_matches(str(name).lower(), lower, n=1, cutoff=0.5)
     return f"; did you mean '{lower[near[0]]}'?" if near else ""
@@ -63,7 +76,22 @@ def show(value: Any) -> str:
 
 
 def refusal(about: Entry, value: Any, name: str) -> str:
-    """Return the message on a value that an entry does not allow; it calls the key ``name``."""
+    """Return the message on a value that an entry does not allow.
+
+    Parameters
+    ----------
+    about
+        Entry of a key or an option.
+    value
+        What was given for it.
+    name
+        What the message calls it.
+
+    Returns
+    -------
+    str
+        One line: the name, the value, what is allowed, and the nearest word to a mistyped one.
+    """
     hint = closest(value, map(str, choices(about))) if isinstance(value, str) else ""
     end = f" ({unit_of(about)})" if unit_of(about) else ""
     return f"{name}: {show(value)} is not allowed; allowed: {range_of(about)}{end}{hint}"

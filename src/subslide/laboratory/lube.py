@@ -4,7 +4,7 @@ import math
 
 
 def runout(a_2: float) -> float:
-    """Runout over R of dry columns of aspect ratio a_2: 1 + 1.24 a_2 below 1.7, 1 + 1.6 sqrt(a_2) above.
+    """Return the runout over R of dry columns of aspect ratio a_2: 1 + 1.24 a_2 below 1.7, 1 + 1.6 sqrt(a_2) above.
 
     G. Lube, H. E. Huppert, R. S. J. Sparks and M. A. Hallworth, J. Fluid Mech. 508, 175 (2004).
     """

@@ -132,7 +132,24 @@ class Axial(Model):
 
 
 def mesh_of(grid: Grid, radial: bool, right_wall: int, real: type[float]) -> Mesh:
-    """Return the `Mesh` of a line or a radius in the working precision `real`."""
+    """Return the `Mesh` of a line or a radius.
+
+    Parameters
+    ----------
+    grid
+        Cells over R.
+    radial
+        Whether they are rings about the axis.
+    right_wall
+        Whether the right end is a wall.
+    real
+        Type of the working precision.
+
+    Returns
+    -------
+    Mesh
+        Arrays of that type, the sums float64.
+    """
     n, dx, x = len(grid.centres), grid.dx, grid.centres
     padded = n + 2 * GHOSTS
     r = x if radial else np.ones(n)

@@ -16,6 +16,11 @@ def make_grid(geometry: str, dx: float, half_cells: int) -> Grid:
         Cell size over R.
     half_cells
         Cells from the axis to the end of the box.
+
+    Returns
+    -------
+    Grid
+        Edges over R, float64, one of them at 0.
     """
     first = -half_cells if geometry in ("plane", "line") else 0
     return Grid(geometry, dx, np.arange(first, half_cells + 1) * dx)

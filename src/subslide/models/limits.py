@@ -68,13 +68,39 @@ def first_sheared(cells: Cells, names: Iterable[str], settings: Settings) -> str
 
 
 def inner(cells: Cells, names: Iterable[str]) -> dict[str, np.ndarray]:
-    """Return the fields of a state by name, without ghost cells."""
+    """Return the fields of a state without ghost cells.
+
+    Parameters
+    ----------
+    cells
+        State, padded.
+    names
+        Fields that are wanted.
+
+    Returns
+    -------
+    dict
+        Views, by name.
+    """
     inside = (slice(GHOSTS, -GHOSTS),) * cells.h1.ndim
     return {name: getattr(cells, name)[inside] for name in names}
 
 
 def described(bad: np.ndarray, values: dict[str, np.ndarray]) -> str:
-    """Return the first cell where `bad` is true, with its scaled state; '' if there is none."""
+    """Return the first cell where something is wrong, with its scaled state, in words.
+
+    Parameters
+    ----------
+    bad
+        Whether it is, by cell.
+    values
+        State by name, each of the shape of `bad`.
+
+    Returns
+    -------
+    str
+        Indices of the cell and its state; '' if there is none.
+    """
     if not bad.any():
         return ""
     where = tuple(int(index) for index in np.argwhere(bad)[0])

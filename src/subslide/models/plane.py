@@ -144,7 +144,22 @@ class Plane(Model):
 
 
 def mesh_of(columns: int, dx: float, real: type[float]) -> Mesh:
-    """Return the `Mesh` of a row of padded columns in the plane, in the working precision `real`."""
+    """Return the `Mesh` of a row in the plane.
+
+    Parameters
+    ----------
+    columns
+        Padded columns.
+    dx
+        Cell size over R.
+    real
+        Type of the working precision.
+
+    Returns
+    -------
+    Mesh
+        Arrays of that type, the sums float64.
+    """
     weight = np.zeros(columns, real)
     weight[GHOSTS:-GHOSTS] = dx * dx
     total = np.concatenate([[0.0], np.cumsum(weight, dtype=np.float64)])
@@ -155,7 +170,24 @@ def mesh_of(columns: int, dx: float, real: type[float]) -> Mesh:
 def columns_within_radius(
     padded_rows: int, row: int, column: int, dx: float, box: tuple[int, int]
 ) -> np.ndarray:
-    """Return for each padded row the padded columns [start, stop) whose centres lie within R = 1, as int64."""
+    """Return the columns of each row whose centres lie within R = 1.
+
+    Parameters
+    ----------
+    padded_rows
+        Rows with ghosts.
+    row, column
+        First padded row and column beyond the axis.
+    dx
+        Cell size over R.
+    box
+        Padded columns [start, stop) that count.
+
+    Returns
+    -------
+    ndarray
+        Padded columns [start, stop) of each padded row, int64 (padded_rows, 2).
+    """
     y = (np.arange(padded_rows) - row + 0.5) * dx
     reach = np.sqrt(np.maximum(0.0, 1.0 - y**2)) / dx
     stop = column + np.floor(reach + 0.5).astype(np.int64)
@@ -164,7 +196,20 @@ def columns_within_radius(
 
 
 def diagonal(h2: np.ndarray, centre: tuple[int, int]) -> np.ndarray:
-    """Return h2 at the cells (column + k, row + k) of the diagonal, NaN where the box has none."""
+    """Return h2 along the diagonal.
+
+    Parameters
+    ----------
+    h2
+        Depth (ny, nx).
+    centre
+        First column and row beyond the axis.
+
+    Returns
+    -------
+    ndarray
+        Depth (nx) at the cells (column + k, row + k), NaN where the box has none.
+    """
     ny, nx = h2.shape
     column = np.arange(nx)
     row = column - centre[0] + centre[1]

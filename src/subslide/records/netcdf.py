@@ -15,7 +15,7 @@ from subslide.records import variables as layout
 from subslide.records.variables import Variable
 
 if TYPE_CHECKING:
-    from subslide.solver import Run
+    from subslide.solver.run import Run
 
 CHECKSUM = "checksum"
 COMPRESSED_FROM = 1 << 16
@@ -76,7 +76,20 @@ def read(path: Path | str) -> tuple[dict[str, Variable], dict]:
 
 
 def digest(variables: dict[str, Variable], attrs: dict) -> str:
-    """Return the SHA-256 (hex) over every variable and attribute in a fixed order, but for the checksum itself."""
+    """Return the checksum of a record, over every variable and attribute in a fixed order but the checksum itself.
+
+    Parameters
+    ----------
+    variables
+        Variables by name.
+    attrs
+        Global attributes by name.
+
+    Returns
+    -------
+    str
+        SHA-256 (hex).
+    """
     total = hashlib.sha256(_attrs_text({k: v for k, v in attrs.items() if k != CHECKSUM}))
     for name in sorted(variables):
         dims, values, about = variables[name]

@@ -12,7 +12,7 @@ from subslide.records import thinning
 
 if TYPE_CHECKING:
     from subslide.records.variables import Variable
-    from subslide.solver import Run
+    from subslide.solver.run import Run
 
 STATED = (
     "scheme",
@@ -38,6 +38,11 @@ def attributes(runs: list["Run"], variables: dict[str, "Variable"]) -> dict[str,
         Results of `solver.solve`.
     variables
         The record's variables by name.
+
+    Returns
+    -------
+    dict
+        Attributes by name: text and numbers.
     """
     import numba
 

@@ -11,7 +11,7 @@ import numpy as np
 from subslide import naming
 
 if TYPE_CHECKING:
-    from subslide.solver import Run
+    from subslide.solver.run import Run
 
 LONGEST, HEAD = 10_000, 4_096
 """Most samples that a record keeps of a run, and how many of these are the run's first, one a step."""

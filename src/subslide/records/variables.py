@@ -8,7 +8,7 @@ from subslide import naming, points
 from subslide.keys.entries import ENTRIES
 
 if TYPE_CHECKING:
-    from subslide.solver import Run
+    from subslide.solver.run import Run
 
 
 class Variable(NamedTuple):

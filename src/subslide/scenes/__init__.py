@@ -2,17 +2,22 @@
 
 A scene is one module of this folder, found by listing it; names that begin with ``_`` are helpers. It has
 
-``OPTIONS``
+OPTIONS : dict of str to Entry
     Entry of each option of the scene by name, in the words of `subslide.keys.entries`. An option is an axis unless its
     entry says ``"axis": False``; without a ``default`` it must be given.
-``symmetry(point) -> str``
-    ``round``, ``line``, ``quarter`` (mirrors on both axes) or ``none``: which models may solve it (`study.choice`).
-``initial(grid, point) -> State``
-    The initial state on a `Grid`, as means over its cells (see `_cells`).
-``check(point)``, if need be
+symmetry(point) -> str
+    Return ``round``, ``line``, ``quarter`` (mirrors on both axes) or ``none``, by which `study.choice` knows the models
+    that may solve the point.
+initial(grid, point) -> State
+    Return the initial state of the point on a `Grid`, as means over its cells (see `_cells`).
+
+and, only where it needs them,
+
+check(point) -> None
     Raise a ConfigError where the scene makes no sense with the rest of the point.
-``complete(options) -> dict``, if need be
-    Return checked options with what follows from them filled in; a ConfigError where that cannot be.
+complete(chosen) -> dict
+    Return the options ``chosen``, by name and checked each for itself, with what follows from them filled in; raise a
+    ConfigError where that cannot be.
 
 Its docstring is its section of config/README.md. Formulas that the initial state needs stand in the module; those that
 judge how it goes on are in `subslide.exact`, under the scene's name.
@@ -102,11 +107,37 @@ def check_walls(point: Point) -> None:
 
 
 def level_off(h2: np.ndarray, level: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return (h1, h2) whose sum is `level` to the bit in the precision of `h2`."""
+    """Return the depths of both layers whose sum is the level to the bit.
+
+    Parameters
+    ----------
+    h2
+        Depth of the grains over H2, an array in the working precision.
+    level
+        Height of the surface over H2.
+
+    Returns
+    -------
+    tuple of ndarray
+        (h1, h2), of the shape of `h2` and in its precision; h2 differs from what was given by round-off.
+    """
     h1 = level - h2
     return h1, level - h1
 
 
 def still_water(h2: np.ndarray, level: float) -> State:
-    """Return the state at rest of grains `h2` under a flat surface at `level`."""
+    """Return the state at rest of grains under a flat surface.
+
+    Parameters
+    ----------
+    h2
+        Depth of the grains over H2, an array of the grid's shape.
+    level
+        Height of the surface over H2.
+
+    Returns
+    -------
+    State
+        Depths, and speeds of 0.
+    """
     return State(*level_off(h2, level))

@@ -6,7 +6,20 @@ import numpy as np
 
 
 def bessel(n: int, x: float | np.ndarray) -> np.ndarray:
-    """Return J_n(x) for |x| <= 1000, n = 0 or 1: the mean over a turn of cos(n t - x sin t), to round-off."""
+    """Return J_n(x), the mean over a turn of cos(n t - x sin t), to round-off.
+
+    Parameters
+    ----------
+    n
+        0 or 1.
+    x
+        Arguments, -1000 to 1000.
+
+    Returns
+    -------
+    ndarray
+        Values, of the shape of `x`.
+    """
     x = np.asarray(x, float)
     points = 64 + 2 * int(np.max(np.abs(x), initial=0.0))
     total = np.zeros(x.shape)

@@ -46,5 +46,18 @@ def initial(grid: Grid, point: Point) -> State:
 
 
 def step(x: np.ndarray, left: float, right: float) -> np.ndarray:
-    """Return the depth at x: ``left`` before the dam at 0, ``right`` from there on."""
+    """Return the depth before the dam is let go.
+
+    Parameters
+    ----------
+    x
+        Places (n), the dam at 0.
+    left, right
+        Depths before the dam and from there on.
+
+    Returns
+    -------
+    ndarray
+        Depths (n).
+    """
     return np.where(x < 0, left, right)

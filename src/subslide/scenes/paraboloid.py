@@ -28,12 +28,36 @@ def initial(grid: Grid, point: Point) -> State:
 
 
 def depth(x: float | np.ndarray, rim: float | np.ndarray = 1.0) -> np.ndarray:
-    """Return h = (1 - x^2/rim^2) / rim^2, 0 beyond the rim: the paraboloid, spread without loss of volume."""
+    """Return h = (1 - x^2/rim^2) / rim^2, 0 beyond the rim: the paraboloid, spread without loss of volume.
+
+    Parameters
+    ----------
+    x, rim
+        Distances from the axis, and radius where the depth ends, over R.
+
+    Returns
+    -------
+    ndarray
+        Depths over H2, of the shape of `x`.
+    """
     return (1.0 / rim) ** 2 * np.maximum(0.0, 1.0 - (x / rim) ** 2)
 
 
 def ring_mean(edges: np.ndarray, rim: float | np.ndarray = 1.0) -> np.ndarray:
-    """Return the mean depth (n) of the rings between the radii `edges` (n + 1)."""
+    """Return the mean depth of rings.
+
+    Parameters
+    ----------
+    edges
+        Radii (n + 1) between them, over R.
+    rim
+        Radius where the depth ends, over R.
+
+    Returns
+    -------
+    ndarray
+        Depths (n) over H2.
+    """
     s = np.minimum(edges / rim, 1.0) ** 2
     volume = s / 2 - s**2 / 4  # over 2 pi, within each radius
     return np.diff(volume) / (np.diff(edges**2) / 2)

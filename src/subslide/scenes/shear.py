@@ -75,7 +75,24 @@ def initial(grid: Grid, point: Point) -> State:
 def state(
     point: Point, x: float | np.ndarray, t: float = 0.0, half_cell: float = 0.0
 ) -> tuple[np.ndarray, ...]:
-    """Return (h1, u1, h2, u2) with the wave at scaled places x (n) and time t: means over x -+ half_cell."""
+    """Return the layers with the wave, as means over cells.
+
+    Parameters
+    ----------
+    point
+        The run's.
+    x
+        Centres (n) of the cells over R.
+    t
+        Scaled time.
+    half_cell
+        Half the size of the cells over R; 0 for the values at `x`.
+
+    Returns
+    -------
+    tuple of ndarray
+        (h1, u1, h2, u2), each (n), scaled.
+    """
     layers = base(point)
     k = wave_number(point)
     c, wave = mode(*layers, point.r)
@@ -128,9 +145,21 @@ def velocities(h1: float, h2: float, r: float, shear: float, drift: float = 0.0)
 
 
 def mode(h1: float, u1: float, h2: float, u2: float, r: float) -> tuple[complex, np.ndarray]:
-    """Return the speed of the wave on the interface, and (dh1, du1, dh2, du2) of it: complex, max(|dh1|, |dh2|) = 1.
+    """Return the speed and the form of the wave on the interface.
 
     Of the inner pair it is the wave that grows, or the faster one where none does.
+
+    Parameters
+    ----------
+    h1, u1, h2, u2
+        Depths and speeds of the layers, scaled.
+    r
+        Density of water over density of grains.
+
+    Returns
+    -------
+    tuple of complex and ndarray
+        Speed, and (dh1, du1, dh2, du2), complex, with max(abs(dh1), abs(dh2)) = 1.
     """
     four = speeds(h1, u1, h2, u2, r)
     complex_pair = four[np.abs(four.imag) > 1e-7 * np.abs(four).max()]

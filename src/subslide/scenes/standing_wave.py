@@ -70,7 +70,24 @@ def initial(grid: Grid, point: Point) -> State:
 
 
 def speed(kind: str, h1: float, h2: float, r: float, g: float = 1.0) -> float:
-    """Return the wave speed of the "surface" or the "internal" mode."""
+    """Return the speed of a wave on both layers at rest.
+
+    Parameters
+    ----------
+    kind
+        "surface" or "internal".
+    h1, h2
+        Depths of the layers.
+    r
+        Density of water over density of grains.
+    g
+        Gravity, 1 where depths are scaled.
+
+    Returns
+    -------
+    float
+        Speed c, of c^2 = g H / 2 (1 +- sqrt(1 - 4 (1-r) h1 h2 / H^2)), H = h1 + h2.
+    """
     H = h1 + h2
     root = math.sqrt(max(0.0, 1 - 4 * (1 - r) * h1 * h2 / H**2))
     if kind == "surface":
@@ -79,14 +96,44 @@ def speed(kind: str, h1: float, h2: float, r: float, g: float = 1.0) -> float:
 
 
 def parts(kind: str, h1: float, h2: float, r: float) -> tuple[float, float]:
-    """Return (dh1, dh2) of the mode, the larger of the two 1 in size and dh1 not negative."""
+    """Return the displacements of both layers in a mode.
+
+    Parameters
+    ----------
+    kind
+        "surface" or "internal".
+    h1, h2
+        Depths of the layers.
+    r
+        Density of water over density of grains.
+
+    Returns
+    -------
+    tuple of float
+        (dh1, dh2), the larger of the two 1 in size and dh1 not negative.
+    """
     ratio = speed(kind, h1, h2, r) ** 2 / h1 - 1
     size = max(1.0, abs(ratio))
     return 1.0 / size, ratio / size
 
 
 def wave_number(shape: str, mode: int, half: float) -> float:
-    """Return k of the wave with `mode` half wavelengths between walls at -half and half, or in the ring's radius."""
+    """Return the wave number of a wave that fits between walls.
+
+    Parameters
+    ----------
+    shape
+        "line", between walls at -half and half, or "round", within a wall of radius half.
+    mode
+        Half wavelengths, or zeros of J1 from the axis to the wall.
+    half
+        Half-width of the box, in any unit.
+
+    Returns
+    -------
+    float
+        Wave number in one over that unit.
+    """
     return zero_of_j1(mode) / half if shape == "round" else mode * math.pi / (2 * half)
 
 

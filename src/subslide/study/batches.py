@@ -58,6 +58,11 @@ def plan(study: Study, folder: Path, extend: bool) -> Plan:
         Whether new points get batches, and `points.json` states the runs and their order; only the process that plans
         may do so.
 
+    Returns
+    -------
+    Plan
+        The batches that hold the study's points.
+
     Raises
     ------
     LedgerError
@@ -169,7 +174,20 @@ def cost(point: Point) -> float:
 
 
 def damaged(folder: Path, batches: Iterable[str]) -> list[Path]:
-    """Return the records, of these batches, whose bytes do not match the SHA-256 that was stored beside them."""
+    """Return the records whose bytes do not match the SHA-256 that was stored beside them.
+
+    Parameters
+    ----------
+    folder
+        Folder of a study.
+    batches
+        Names of the batches whose records are looked at.
+
+    Returns
+    -------
+    list of Path
+        Paths of the records; none of a record that is not there.
+    """
     wrong = []
     for name in batches:
         record = folder / "records" / f"{name}.nc"

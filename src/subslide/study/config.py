@@ -8,24 +8,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from subslide import catalogue, scenes
+from subslide import catalogue
 from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS, Point, from_dict
-from subslide.study import choice, scene_options
+from subslide.study import scene_options, together
 from subslide.study.yaml_files import read_yaml
 
 MOST_POINTS = 200_000
-MOST_PLANE_CELLS = 10_000
 FEWEST_CELLS = 10
 CASE_KEYS = ("numerics", *RUN_KEYS)
-PLANE = ("quarter", "plane")
-GEOMETRIES = {
-    ("fields", True): PLANE,
-    ("as_printed", "upwinding"): PLANE,  # of tangential momentum, which a line or a radius does not have
-    ("boundary", "periodic"): ("line", "plane"),
-}
-"""Geometries to which a value of a key is limited."""
 COARSENING = {"cells/2": 2, "cells/4": 4}
 """Role of each companion of a run in a study with bands, and how many times fewer cells it has."""
 
@@ -124,6 +116,11 @@ def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
     names
         What messages call a key, such as the option of the command line, where that is not its name.
 
+    Returns
+    -------
+    Point
+        The point; defaults stand for keys that are left out.
+
     Raises
     ------
     ConfigError
@@ -148,9 +145,26 @@ def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
 
 
 def resolve(values: dict, names: dict[str, str] | None = None) -> tuple[str, Point]:
-    """Return the label of the numerics, and the point, of single values by key, each checked.
+    """Return the label of the numerics, and the point, of single values.
 
     Scene options are checked here, and whether the values go with one another.
+
+    Parameters
+    ----------
+    values
+        Value by key, each checked for itself but the scene options.
+    names
+        What messages call a key, where that is not its name.
+
+    Returns
+    -------
+    tuple of str and Point
+        Label and point.
+
+    Raises
+    ------
+    ConfigError
+        If values do not go with one another: one line.
     """
     values = dict(values)
     name = (names or {}).get("scene_options", "scene_options")
@@ -158,32 +172,8 @@ def resolve(values: dict, names: dict[str, str] | None = None) -> tuple[str, Poi
     values["scene_options"] = scene_options.checked(scene, given, name)
     label = values.pop("numerics", schema.properties()["numerics"]["default"])
     point = from_dict({**schema.properties()["numerics"]["presets"][label], **values})
-    check_together(point)
+    together.check(point)
     return label, point
-
-
-def check_together(point: Point) -> None:
-    """Raise a ConfigError if values of a point, each allowed, do not go with one another."""
-    if point.model == "one-layer" and point.r != 0:
-        raise ConfigError(f"model: one-layer is not allowed with r: {point.r:g}; allowed: only with r: 0")
-    scenes.check(point)
-    models = choice.exact_models(point)
-    if point.model not in ("auto", *models):
-        raise ConfigError(
-            f"model: {point.model} is not allowed with scene: {point.scene}, a"
-            f" {choice.WORDS[scenes.symmetry(point)]}; allowed: auto, {', '.join(models)}"
-        )
-    model, geometry, reason, _ = choice.of(point)
-    for (key, value), geometries in GEOMETRIES.items():
-        if getattr(point, key) == value and geometry not in geometries:
-            raise ConfigError(
-                f"{key}: {words.show(value)} is not allowed with model: {model} ({reason});"
-                f" allowed: {', '.join(geometries)}"
-            )
-    if geometry in PLANE and point.cells > MOST_PLANE_CELLS:
-        raise ConfigError(
-            f"cells: {point.cells} is not allowed in the plane; allowed: at most {MOST_PLANE_CELLS}"
-        )
 
 
 def _grids(values: dict) -> list[tuple[str, dict[str, list]]]:
@@ -210,7 +200,7 @@ def _axes(values: dict) -> dict[str, list]:
 
 
 def _product(axes: dict[str, list], bands: bool) -> Iterator[tuple[str, Point]]:
-    """Yield the label of the numerics, and the point, of each combination of axes; `bands`: cells must halve twice."""
+    """Give the label of the numerics, and the point, of each combination of axes; `bands`: cells must halve twice."""
     for combination in itertools.product(*axes.values()):
         label, point = resolve(dict(zip(axes, combination, strict=True)))
         coarsest, left = divmod(point.cells, max(COARSENING.values()))

@@ -24,6 +24,11 @@ def checked(scene: str, given: dict[str, Any], key: str) -> dict[str, Any]:
     key
         What messages call the mapping of options.
 
+    Returns
+    -------
+    dict
+        Values by option, also those that follow from the others.
+
     Raises
     ------
     ConfigError
@@ -53,7 +58,13 @@ def checked(scene: str, given: dict[str, Any], key: str) -> dict[str, Any]:
 
 
 def along_axes(given: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return mappings with one value for each option: the product of those that have a list and may be an axis."""
+    """Return mappings with one value for each option: the product of those that have a list and may be an axis.
+
+    Raises
+    ------
+    ConfigError
+        If a list is empty, or there are more than MOST_COMBINATIONS.
+    """
     lists = {}
     for name, value in given.items():
         lists[name] = value if isinstance(value, list) and _is_axis(name) else [value]
@@ -73,7 +84,25 @@ def _is_axis(name: str) -> bool:
 
 
 def of_text(text: str, value_of_text: Callable[[str], Any]) -> dict[str, Any]:
-    """Return the values by name of text such as 'elongation=2,angle=30', each as ``value_of_text`` reads it."""
+    """Return the options that a text such as 'elongation=2,angle=30' states.
+
+    Parameters
+    ----------
+    text
+        Options, parted by commas.
+    value_of_text
+        Function that reads a value.
+
+    Returns
+    -------
+    dict
+        Values by name.
+
+    Raises
+    ------
+    ConfigError
+        If a part is not NAME=VALUE, or a name comes twice.
+    """
     options = {}
     for part in filter(None, text.split(",")):
         name, sign, value = (piece.strip() for piece in part.partition("="))

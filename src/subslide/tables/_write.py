@@ -55,7 +55,17 @@ def write(name: str, results: "Results") -> list[Path]:
 
 
 def remove(name: str, folder: Path, but: Iterable[Path] = ()) -> None:
-    """Remove the files of a table from a study's folder, but for some of them."""
+    """Remove the files of a table from a study's folder.
+
+    Parameters
+    ----------
+    name
+        Name of the table.
+    folder
+        Folder of the study.
+    but
+        Files that stay.
+    """
     for path in (folder / "tables").glob(f"{name}.*"):
         if path not in but:
             path.unlink(missing_ok=True)

@@ -38,7 +38,7 @@ from subslide.tables._prose import with_constants
 
 if TYPE_CHECKING:
     from subslide.results import Results
-    from subslide.solver import Run
+    from subslide.solver.run import Run
 
 TITLE = "Largest stable Courant numbers"
 READS = ()

@@ -1,8 +1,13 @@
 """Friction of the grains on the bed: Coulomb's law, which every cell obeys, and what other laws add to it.
 
-One law a file. `scaled(point)` returns up to MOST scaled numbers of the law, which kernels get as `s.law_1` and so on;
-`remaining(s, dt, h2, speed)` returns the factor that the law's friction beyond Coulomb's at delta leaves of a velocity
-in the time dt. To add a law, write its file and name it in `keys.names.LAWS`; its keys are entries of `keys.entries`.
+One law a file. To add one, write its file and name it in `keys.names.LAWS`; its keys are entries of `keys.entries`. A
+file has
+
+scaled(point) -> tuple of float
+    Return up to MOST scaled numbers of the law, which kernels get as ``s.law_1`` and so on.
+remaining(s, dt, h2, speed) -> float
+    Return the factor that the law's friction beyond Coulomb's at delta leaves of a velocity in the time ``dt``, where
+    grains are ``h2`` deep and have the ``speed``, all scaled; Coulomb's own file has none.
 """
 
 from importlib import import_module

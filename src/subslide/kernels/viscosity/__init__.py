@@ -1,9 +1,18 @@
 """Riemann solvers as polynomials of the Roe matrix (PVM methods, Castro and Fernandez-Nieto 2012).
 
 Q = alpha0 Id + alpha1 A + alpha2 A^2 (Eq. 9), so a solver is a function from wave speeds to three numbers, in a file
-of its own: `alpha(waves, dry)` returns (alpha0, alpha1, alpha2) for the speeds `waves.Waves` of an edge, `dry` where a
-layer is dry on either side. A solver whose polynomial has a fourth coefficient has `cubic(waves)` as well, which
-returns alpha0..3 and rules where no side is dry. To add one, write its file and name it in `keys.names.SCHEMES`.
+of its own. To add one, write its file and name it in `keys.names.SCHEMES`. A file has
+
+alpha(waves, dry) -> tuple of float
+    Return (alpha0, alpha1, alpha2) for the speeds `waves.Waves` of an edge; ``dry``: whether a layer is dry on either
+    side.
+
+and, only where the solver needs them,
+
+cubic(waves) -> tuple of float
+    Return alpha0..3 of a polynomial with a fourth coefficient, which rules where no side is dry.
+EXACT_FRONT : bool
+    Whether grains may run onto a dry bed with the exact flux of a front.
 """
 
 from importlib import import_module

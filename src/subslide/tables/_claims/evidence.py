@@ -52,6 +52,7 @@ class Evidence:
     """Tables of the runs of one kind of numerics that differ in a_H and r alone: those like the first of them."""
 
     def __init__(self, results: "Results", numerics: str):
+        """Take the tables' rows of the runs with these numerics."""
         runs = results.runs[results.runs["numerics"] == numerics]
         for key in RUN_KEYS:
             if key in runs and key not in ("a_H", "r", "snapshot_times") and len(runs):

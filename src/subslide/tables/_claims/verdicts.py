@@ -125,7 +125,7 @@ def number(value: float, band: float, unit: float, digits: int = 3) -> str:
 
 
 def over_r(field: Field, unit: float, digits: int = 3) -> str:
-    """Return, for each a_H, the values at the least and at the greatest r."""
+    """Return the values at the least and at the greatest r, for each a_H."""
     if field.value.columns.empty:
         return ""
     first, last = field.value.columns[[0, -1]]
@@ -137,7 +137,7 @@ def over_r(field: Field, unit: float, digits: int = 3) -> str:
 
 
 def over_depth(field: Field, unit: float, digits: int = 3) -> str:
-    """Return, for each r, the values at each a_H."""
+    """Return the values at each a_H, for each r."""
     words = (
         " / ".join(number(*field.at(a, r), unit, digits) for a in field.value.index) + f" (r = {r:g})"
         for r in field.value.columns

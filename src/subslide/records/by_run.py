@@ -1,0 +1,61 @@
+"""Variables of a record run by run, as NumPy arrays: the reader of many runs."""
+
+from collections.abc import Collection
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from subslide.files import RecordError
+from subslide.records import netcdf
+from subslide.records.variables import Variable
+
+
+def read(path: Path, ids: Collection[str], names: Collection[str]) -> dict[str, dict[str, Any]]:
+    """Return variables of some runs of a record; nothing else stays in memory.
+
+    Parameters
+    ----------
+    path
+        The record.
+    ids
+        Ids of the runs.
+    names
+        Names of the variables; what the record lacks is left out.
+
+    Returns
+    -------
+    dict
+        Variables by the id of the run and their name, without the dimension `run` and without padding.
+
+    Raises
+    ------
+    RecordError
+        If the record is missing or damaged, or lacks a run.
+    """
+    variables, _ = netcdf.read(path)
+    places = {name: n for n, name in enumerate(variables["id"].values)}
+    if lacking := sorted(set(ids) - set(places)):
+        raise RecordError(f"{path}: the record lacks the run {lacking[0]}")
+    wanted = {name: variables[name] for name in names if name in variables}
+    return {name: _of_run(variables, wanted, places[name]) for name in ids}
+
+
+def _of_run(variables: dict[str, Variable], wanted: dict[str, Variable], place: int) -> dict[str, Any]:
+    """Return the wanted variables of the run at a place of a record, without padding, as copies."""
+    cells = np.isfinite(variables["h2"].values[place, 0])
+    kept = {
+        "step": slice(int(np.isfinite(variables["time"].values[place]).sum())),
+        "snapshot": slice(int(np.isfinite(variables["snapshot_time"].values[place]).sum())),
+        "x": cells,
+        "y": cells,
+    }
+    parts = {}
+    for name, variable in wanted.items():
+        dims, values = variable.dims, variable.values
+        if dims[:1] == ("run",):
+            dims, values = dims[1:], values[place]
+        for axis, dim in enumerate(dims):
+            values = values[(*[slice(None)] * axis, kept.get(dim, slice(None)))]
+        parts[name] = values.copy() if dims else values
+    return parts

@@ -1,0 +1,109 @@
+"""One run: a point in, a `Run` out. The time loop is compiled; here are its ends, snapshots and failures."""
+
+import math
+from collections.abc import Callable
+
+import numba
+import numpy as np
+
+from subslide.kernels import clock as k
+from subslide.models.build import build
+from subslide.naming import STATUSES
+from subslide.points import Point
+from subslide.solver.answer import Snapshot, describe, make_run
+from subslide.solver.loop import advance_to, warm_up
+from subslide.solver.run import Run
+
+DRY_DEPTH = 1e-6
+"""Over H2: below it a layer counts as dry (HLL instead of IFCP) and velocities are cut off smoothly."""
+
+REST_CAP = 60.0
+"""Cap on runs to rest, in R / sqrt(g H2 (1-r)): the paper's slowest column rests at 5, a_2 = 1.5, delta = 20 at 9."""
+
+GROWTH = 1.5
+LARGEST_BOX = 4.0
+"""The box grows by GROWTH while the front reaches its edge, up to LARGEST_BOX times the paper's."""
+
+ENDED = {
+    k.AT_REST: "ok",
+    k.FRONT_AT_EDGE: "left_domain",
+    k.NOT_FINITE: "diverged",
+    k.NEGATIVE: "negative_depth",
+    k.COLLAPSED: "step_collapse",
+    k.SHEARED: "hyperbolicity_lost",
+}
+assert set(ENDED.values()) <= set(STATUSES)
+
+
+def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | None = None) -> Run:
+    """Return the `Run` of a point; a numerical failure is a status, never an exception.
+
+    Parameters
+    ----------
+    point
+        The run.
+    threads
+        Cores for one plane run; no result depends on it.
+    progress
+        Function that is called with the fraction of the run's time that is done.
+
+    Returns
+    -------
+    Run
+        Its answer, in the box that its front did not reach, or in the largest.
+    """
+    numba.set_num_threads(max(1, min(threads, numba.config.NUMBA_NUM_THREADS)))
+    box = point.half_cells
+    while True:
+        run = attempt(point, box, progress)
+        grown = math.ceil(box * GROWTH)
+        if run.status != "left_domain" or grown > LARGEST_BOX * point.half_cells:
+            return run
+        box = grown
+
+
+def attempt(point: Point, box: int, progress: Callable[[float], object] | None) -> Run:
+    """Return the run in a box of a size, its surface watched within the smallest box.
+
+    Parameters
+    ----------
+    point
+        The run.
+    box
+        Cells from the axis to the end of the box.
+    progress
+        As for `solve`.
+
+    Returns
+    -------
+    Run
+        Its answer; `left_domain` if the front reached the end of the box.
+    """
+    time_scale = point.time_scale
+    cap = REST_CAP / math.sqrt(1.0 - point.r) * time_scale
+    end = cap if point.t_end is None else point.t_end
+    times = [t for t in point.profile_times if t <= end]
+    model = build(point, box, point.half_cells, DRY_DEPTH)
+    clock = np.array([0.0, 0.0, math.inf, -1.0])
+    if point.t_end is None:
+        clock[k.REST_FROM] = max(times[-1] / time_scale if times else 0.0, np.nextafter(0.0, 1.0))
+    warm_up(model)
+    chunks: list[np.ndarray] = []
+    snapshots: list[Snapshot] = []
+    wall = 0.0
+    for stop in sorted({*times, end}):
+        clock[k.STOP] = stop / time_scale
+        outcome, seconds = advance_to(
+            model, clock, chunks, lambda now: progress and progress(now * time_scale / end)
+        )
+        wall += seconds
+        if stop in times and clock[k.NOW] >= clock[k.STOP]:
+            snapshots.append(Snapshot(stop, model.profile(), model.fields() if point.fields else None))
+        if outcome != k.REACHED:
+            break
+    last = float(clock[k.NOW] * time_scale)
+    snapshots.append(Snapshot(last, model.profile(), model.fields() if point.fields else None))
+    sampled = np.concatenate(chunks)
+    status = ENDED.get(outcome, "ok" if point.t_end is not None else "not_at_rest")
+    detail = "" if status == "ok" else describe(status, model, sampled, time_scale)
+    return make_run(point, model, sampled, snapshots, (status, detail), wall, clock)

@@ -1,0 +1,165 @@
+"""From the scaled samples and snapshots of a loop to a run in SI units and words."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from subslide.kernels import clock as k
+from subslide.kernels import measures, samples
+from subslide.kernels.measures import Scales
+from subslide.models.model import Model
+from subslide.naming import FINISHED, FRONT_THRESHOLDS, STATUSES
+from subslide.points import Point
+from subslide.solver.run import Run
+from subslide.study import choice
+
+
+class Snapshot(NamedTuple):
+    """Time (s) of a snapshot, and scaled profiles and, where they are kept, fields of the plane, by name."""
+
+    time: float
+    profile: dict[str, np.ndarray]
+    fields: dict[str, np.ndarray] | None
+
+
+def describe(status: str, model: Model, sampled: np.ndarray, time_scale: float) -> str:
+    """Return one line on a run that did not end well: what, when, after how many steps, and where.
+
+    Parameters
+    ----------
+    status
+        Status of the run.
+    model
+        What was run, in its last state.
+    sampled
+        Samples (samples, columns), scaled.
+    time_scale
+        Time (s) of scaled time 1.
+
+    Returns
+    -------
+    str
+        The line.
+    """
+    text = f"{STATUSES[status]}; t = {sampled[-1, samples.TIME] * time_scale:.6g} s, step {len(sampled) - 1}"
+    suspect = ""
+    if status in ("diverged", "negative_depth", "step_collapse"):
+        suspect = model.suspect()
+    elif status == "hyperbolicity_lost":
+        suspect = model.sheared()
+    return f"{text}, {suspect}" if suspect else text
+
+
+def series_in_si(model: Model, point: Point, sampled: np.ndarray) -> dict[str, np.ndarray]:
+    """Return the series of a run in SI units.
+
+    Parameters
+    ----------
+    model
+        What was run.
+    point
+        The run.
+    sampled
+        Samples (samples, columns), scaled.
+
+    Returns
+    -------
+    dict
+        Series by name, see `Run`; NaN where the model lacks a layer.
+    """
+    volume = model.copies * point.column_height * point.radius**model.dimensions
+    si = Scales(point.radius, point.column_height, point.g, volume, model.copies)
+    column = sampled.T
+    series = {"x_front": column[samples.FRONT : samples.FRONT + samples.FRONTS] * si.length}
+    for name, measured in measures.SERIES.items():
+        known = model.settings.layers >= measured.layers
+        values = column[samples.COLUMN[name]]
+        series[name] = measured.si(values, si) if known else np.full(len(sampled), np.nan)
+    return series
+
+
+def in_metres(values: list[dict[str, np.ndarray]], name: str, height: float) -> np.ndarray:
+    """Return one of the profiles or fields of each snapshot in m.
+
+    Parameters
+    ----------
+    values
+        Scaled profiles or fields, by name, of each snapshot.
+    name
+        The wanted one.
+    height
+        Column height (m).
+
+    Returns
+    -------
+    ndarray
+        Values (snapshots, ...).
+    """
+    return np.stack([of_snapshot[name] for of_snapshot in values]) * height
+
+
+def make_run(
+    point: Point,
+    model: Model,
+    sampled: np.ndarray,
+    snapshots: list[Snapshot],
+    ended: tuple[str, str],
+    wall: float,
+    clock: np.ndarray,
+) -> Run:
+    """Return the `Run` of a finished loop, in SI units.
+
+    Parameters
+    ----------
+    point
+        The run.
+    model
+        What was run.
+    sampled
+        Samples (samples, columns), scaled.
+    snapshots
+        Snapshots in order, the end of the run last.
+    ended
+        Status of the run, and what ended it, in words.
+    wall
+        Seconds of the loop.
+    clock
+        Scaled times, see `kernels.clock`.
+
+    Returns
+    -------
+    Run
+        Its answer.
+    """
+    height, time_scale = point.column_height, point.time_scale
+    profiles = [snapshot.profile for snapshot in snapshots]
+    whole = [snapshot.fields for snapshot in snapshots if snapshot.fields]
+    series = series_in_si(model, point, sampled)
+    front = series["x_front"]
+    status, detail = ended
+    final = status in FINISHED
+
+    alone = model.settings.layers == 1
+    rested = clock[k.REST_SINCE] >= 0 and final
+    return Run(
+        point=point,
+        model=model.name,
+        model_reason=choice.of(point).reason,
+        dx=point.dx,
+        x=model.x * point.radius,
+        time=sampled[:, samples.TIME] * time_scale,
+        series=series,
+        snapshot_time=np.array([snapshot.time for snapshot in snapshots]),
+        h2=in_metres(profiles, "h2", height),
+        eta=np.full((len(profiles), len(model.x)), np.nan) if alone else in_metres(profiles, "eta", height),
+        h2_diagonal=in_metres(profiles, "h2_diagonal", height) if "h2_diagonal" in profiles[0] else None,
+        h2_field=in_metres(whole, "h2", height).astype(np.float32) if whole else None,
+        eta_field=in_metres(whole, "eta", height).astype(np.float32) if whole else None,
+        L_f=front[:, -1].copy() if final else np.full(len(FRONT_THRESHOLDS), np.nan),
+        status=status,
+        status_detail=detail,
+        steps=len(sampled) - 1,
+        wall_seconds=wall,
+        time_at_rest=float(clock[k.REST_SINCE] * time_scale if rested else np.nan),
+        box_half_width=model.half_width * point.radius,
+    )

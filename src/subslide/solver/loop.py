@@ -1,0 +1,65 @@
+"""The time loop, in segments from one snapshot to the next."""
+
+import math
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+from subslide.kernels import clock as k
+from subslide.kernels import samples
+from subslide.kernels.arrays import Track
+from subslide.models.model import Model
+from subslide.naming import FRONT_THRESHOLDS
+
+CHUNK = 512
+"""Samples between two looks at the clock on the wall."""
+
+
+def thresholds(model: Model) -> tuple[float, ...]:
+    """Return the front's thresholds in the working precision."""
+    real = type(model.level)
+    return tuple(real(value) for value in FRONT_THRESHOLDS)
+
+
+def warm_up(model: Model) -> None:
+    """Compile the time loop (or load it) with a segment of no length, which changes nothing but derived values."""
+    track = Track(np.array([0.0, 0.0, math.inf, -1.0]), np.empty((2, samples.COLUMNS)), np.zeros(2, np.int64))
+    model.advance(thresholds(model), track)
+
+
+def advance_to(
+    model: Model, clock: np.ndarray, chunks: list[np.ndarray], look: Callable[[float], object]
+) -> tuple[int, float]:
+    """Run the loop until it ends, and keep its samples, one for each instant.
+
+    A loop that starts again samples its first instant again, so the last sample before it is dropped.
+
+    Parameters
+    ----------
+    model
+        What is run.
+    clock
+        Scaled times, see `kernels.clock`; the loop moves it on.
+    chunks
+        Arrays (samples, columns), which get those of this loop.
+    look
+        Function that is called with the scaled time now and then.
+
+    Returns
+    -------
+    tuple of int and float
+        Why the loop ended, see `kernels.clock`, and the seconds that it took.
+    """
+    wall = 0.0
+    while True:
+        track = Track(clock, np.empty((CHUNK, samples.COLUMNS)), np.zeros(2, np.int64))
+        started = time.perf_counter()
+        model.advance(thresholds(model), track)
+        wall += time.perf_counter() - started
+        if chunks:
+            chunks[-1] = chunks[-1][:-1]
+        chunks.append(track.samples[: track.counters[k.SAMPLES]])
+        look(clock[k.NOW])
+        if track.counters[k.OUTCOME] != k.FULL:
+            return int(track.counters[k.OUTCOME]), wall

@@ -1,0 +1,70 @@
+"""What a run answers."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from subslide.points import Point
+
+
+@dataclass
+class Run:
+    """Result of a point's run: float64 arrays in SI units.
+
+    Series are attributes too: `run.x_front` is `run.series["x_front"]`. What a model does not have (water of one layer,
+    the diagonal of a radius) is NaN or None.
+
+    Attributes
+    ----------
+    point
+        The run.
+    model, model_reason
+        Model that was solved, and why, in words.
+    dx, x
+        Cell size and cell centres (x) in m from the axis.
+    time
+        Times (samples) of the series in s.
+    series
+        Series by their names in `naming.SERIES`, each (samples), but for `x_front`, the front (thresholds, samples) in
+        m at each of `naming.FRONT_THRESHOLDS`.
+    snapshot_time
+        Times (snapshots) in s of the profiles (snapshots, x) and of the fields (snapshots, y, x), which are float32.
+    L_f
+        Length of the deposit (thresholds) in m; NaN if the run failed.
+    status, status_detail
+        How the run ended, one of `naming.STATUSES`, and what ended it, in words.
+    steps, wall_seconds
+        Time steps, and seconds of the time loop alone.
+    time_at_rest
+        Time in s since which no grain has moved; NaN if there is none.
+    box_half_width
+        Half-width of the box in m.
+    """
+
+    point: Point
+    model: str
+    model_reason: str
+    dx: float
+    x: np.ndarray
+    time: np.ndarray
+    series: dict[str, np.ndarray]
+    snapshot_time: np.ndarray
+    h2: np.ndarray
+    eta: np.ndarray
+    h2_diagonal: np.ndarray | None
+    h2_field: np.ndarray | None
+    eta_field: np.ndarray | None
+    L_f: np.ndarray
+    status: str
+    status_detail: str
+    steps: int
+    wall_seconds: float
+    time_at_rest: float
+    box_half_width: float
+
+    def __getattr__(self, name: str) -> np.ndarray:
+        """Return the series of that name."""
+        series = self.__dict__.get("series", {})
+        if name not in series:
+            raise AttributeError(f"a run has no {name}")
+        return series[name]
