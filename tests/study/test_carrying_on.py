@@ -15,7 +15,9 @@ import xarray as xr
 import subslide
 
 ROOT = Path(__file__).resolve().parents[2]
-FENCE = re.compile(r"^```(python|diff|yaml)\n# (\S+/\S+\.\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+FENCE = re.compile(
+    r"^```(python|diff|yaml|rst)\n(?:#|\.\.) (\S+/\S+\.\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL
+)
 """A fenced block that names its file in its first line: its language, the file, and the rest."""
 
 NEW = {
@@ -24,10 +26,11 @@ NEW = {
     "src/subslide/kernels/friction/viscous.py",
     "src/subslide/kernels/measures/depth.py",
     "src/subslide/tables/arrival.py",
-    "src/subslide/figures/arrival.py",
+    "src/subslide/figures/arrival_by_angle.py",
+    "workflow/report/arrival_by_angle.rst",
     "config/rings.yaml",
 }
-"""Files that the page adds: one a thing."""
+"""Files that the page adds: one a thing, and the caption of the figure."""
 
 CHANGED = {
     "src/subslide/keys/names.py",
@@ -104,7 +107,7 @@ def copy(tmp_path_factory):
 def results(copy):
     """Folder of the page's study, solved, tabulated and drawn by the copy's workflow."""
     folder = "results/rings"
-    wanted = ("tables/arrival.csv", "tables/runs.csv", "tables/series.csv", "figures/arrival.png")
+    wanted = ("tables/arrival.csv", "tables/runs.csv", "tables/series.csv", "figures/arrival_by_angle.png")
     config = ("--configfile", "config/rings.yaml", "--cores", "1")
     copy.python("-m", "snakemake", *config, *(f"{folder}/{name}" for name in wanted))
     return copy.folder / folder
@@ -188,5 +191,5 @@ def test_series_and_table_hold_the_new_series(results):
 
 
 def test_the_figure_is_drawn(results):
-    assert (results / "figures/arrival.png").read_bytes().startswith(b"\x89PNG")
-    assert (results / "figures/arrival.svg").read_text(encoding="utf-8").count("<use") > 4
+    assert (results / "figures/arrival_by_angle.png").read_bytes().startswith(b"\x89PNG")
+    assert (results / "figures/arrival_by_angle.svg").read_text(encoding="utf-8").count("<use") > 4

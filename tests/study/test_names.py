@@ -30,7 +30,9 @@ GENERAL = {("friction_in_viscosity", False)} | {
 
 @pytest.mark.parametrize("name", FLAGS)
 def test_a_name_keeps_its_integer(name):
-    assert names.flags(getattr(names, name)) == FLAGS[name]
+    """New names come after those of before."""
+    flags = names.flags(getattr(names, name))
+    assert list(flags.items())[: len(FLAGS[name])] == list(FLAGS[name].items())
 
 
 @pytest.mark.parametrize("key", KEYS)
@@ -41,7 +43,7 @@ def test_a_key_allows_the_names_and_its_default_is_lean(key):
 
 
 def test_solvers_are_told_best_first():
-    assert names.best_first(names.SCHEMES) == ("ifcph", "ifcp", "hll", "rusanov", "roe")
+    assert names.best_first(names.SCHEMES)[:5] == ("ifcph", "ifcp", "hll", "rusanov", "roe")
 
 
 def test_general_kernels_are_for_what_lean_ones_leave_out_alone():

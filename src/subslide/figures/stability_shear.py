@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 
 from subslide import exact
 from subslide.figures import _style, _words
-from subslide.points import Point, replace
+from subslide.points import Point
 
 if TYPE_CHECKING:
     from subslide.results import Results
