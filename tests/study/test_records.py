@@ -155,6 +155,16 @@ def test_no_flipped_bit_changes_a_value_unnoticed(tmp_path, make_run, data):
     assert records.digest(found, attrs) == expected
 
 
+def test_a_damaged_list_of_attributes_is_refused(tmp_path, make_run):
+    path = tmp_path / "attributes.nc"
+    records.write(path, [make_run(Point(cells=20), steps=3)])
+    content = bytearray(path.read_bytes())
+    content[content.index(b"checksum") - 1] ^= 1
+    path.write_bytes(content)
+    with pytest.raises(records.RecordError, match="damaged"):
+        records.read(path)
+
+
 def test_other_files_are_refused(tmp_path):
     (tmp_path / "text.nc").write_text("not a record")
     with netCDF4.Dataset(tmp_path / "other.nc", "w") as data:

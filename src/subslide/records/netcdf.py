@@ -66,7 +66,7 @@ def read(path: Path | str) -> tuple[dict[str, Variable], dict]:
                 for name, v in data.variables.items()
             }
             attrs = {key: data.getncattr(key) for key in data.ncattrs()}
-    except (OSError, RuntimeError, UnicodeDecodeError, IndexError, ValueError) as error:
+    except (OSError, RuntimeError, AttributeError, IndexError, ValueError) as error:
         raise RecordError(f"{path}: the file is damaged or not a NetCDF file ({error})") from None
     if CHECKSUM not in attrs:
         raise RecordError(f"{path}: not a record of subslide: it has no checksum")
