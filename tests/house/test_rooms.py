@@ -1,6 +1,7 @@
 """The rooms of the package in the order of the work: a module imports from its own room and from those before it."""
 
 import ast
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -130,6 +131,13 @@ def test_a_module_imports_only_what_comes_before_it(path):
 def test_every_room_is_there():
     rooms = {room_of(name_of(path)) for path in MODULES} - {"__init__"}
     assert rooms == set(FLOOR)
+
+
+def test_the_page_on_rooms_tells_their_order():
+    page = (PACKAGE.parents[1] / "docs/design/rooms.md").read_text(encoding="utf-8")
+    rows = [line.split("|")[1] for line in page.splitlines() if line.startswith("| `")]
+    told = [name for row in rows for name in re.findall(r"`(\w+)/?`", row)]
+    assert told == [name for _, names in ROOMS for name in names]
 
 
 def test_modules_import_each_other_in_no_circle():
