@@ -7,7 +7,7 @@ import pytest
 from states import advance, axial, inner, plane
 
 from subslide.exact.shear import growth_rate
-from subslide.kernels import clock as k
+from subslide.kernels import samples as columns
 from subslide.kernels.hyperbolicity import FLAGS as TREATMENTS
 from subslide.kernels.hyperbolicity import is_complex
 from subslide.scenes.shear import base, critical_shear
@@ -107,7 +107,7 @@ def test_friction_keeps_rough_flows_hyperbolic_and_their_volumes_and_momentum(or
     energies = []
     for _ in range(40):
         samples, _ = advance(model, steps=1)
-        energies.append(samples[0, k.ENERGY])
+        energies.append(samples[0, columns.ENERGY])
         assert not worst(model)
     np.testing.assert_allclose(momentum(model).sum(axis=1), before, atol=1e-13)
     np.testing.assert_allclose(inner(model, "h1").sum(), h1.sum(), rtol=1e-14)
