@@ -13,13 +13,13 @@ from matplotlib.patches import Patch
 from subslide import naming
 from subslide.figures import _style, _words
 from subslide.points import Point
-from subslide.tables import _methods
+from subslide.tables import _by_method
 from subslide.tables._energy import GAINED
 
 if TYPE_CHECKING:
     from subslide.results import Results
 
-USUAL = {key: getattr(Point(), key) for key in _methods.VARIANTS}
+USUAL = {key: getattr(Point(), key) for key in _by_method.VARIANTS}
 """Default of each column that tells variants of a method apart."""
 SCALE = (0.0, 0.3)
 """Errors of L_f that the colours span."""

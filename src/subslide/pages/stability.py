@@ -2,11 +2,11 @@
 
 from subslide.pages import renewal
 from subslide.results import Results
-from subslide.tables import _methods
+from subslide.tables import _by_method
 
 
 def page(text: str, results: Results) -> str:
     """Return the page `text` with the table of methods of a study; ConfigError without the marks or the atlas."""
-    table = _methods.methods(results.atlas)
+    table = _by_method.methods(results.atlas)
     rows = [list(table.columns), *table.astype(str).to_numpy().tolist()]
     return renewal.renewed(text, renewal.LAST_RUN, rows)

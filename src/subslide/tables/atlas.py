@@ -18,8 +18,8 @@ from subslide.keys import schema, words
 from subslide.naming import FINISHED
 from subslide.points import RUN_KEYS, Point, options_text
 from subslide.study.config import Study
+from subslide.tables import _by_method
 from subslide.tables import _energy as energy
-from subslide.tables import _methods
 from subslide.tables._prose import with_constants
 
 if TYPE_CHECKING:
@@ -126,7 +126,7 @@ def table(results: "Results") -> list[dict]:
 
 def text(results: "Results") -> str:
     """Return what the atlas says of each method, and failures that no caution speaks of."""
-    return _methods.text(results)
+    return _by_method.text(results)
 
 
 def references_of(point: Point, family: list[tuple[str, Point]]) -> list[str]:
