@@ -18,9 +18,10 @@ class RecordError(Exception):
 def replacing(path: Path | str) -> Iterator[Path]:
     """Give a temporary path beside `path` to a block, and move it to `path` once the block has ended well.
 
-    The data are on the disk before the name changes; after an error neither file is left behind.
+    The data are on the disk before the name changes; after an error neither file is left behind. A link is written
+    through: it stays, and what it points to is replaced.
     """
-    path = Path(path)
+    path = Path(os.path.realpath(path))
     temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex[:8]}.tmp")
     try:
         yield temporary

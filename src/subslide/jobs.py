@@ -52,29 +52,41 @@ def point_of(path: str | None, options: dict[str, str]) -> Point:
     return config.make_point(values, names)
 
 
+OTHER_FORMATS = frozenset({
+    *(".csv", ".tsv", ".txt", ".json", ".yaml", ".yml", ".parquet", ".zarr", ".xlsx"),
+    *(".png", ".svg", ".pdf", ".html", ".md", ".py", ".sha256"),
+})  # fmt: skip
+"""Ends of names that promise something else than a record."""
+
+
 def check_output(path: str, inputs: list[str]) -> None:
-    """Raise a ConfigError unless a file can be written.
+    """Raise a ConfigError unless a record can be written.
 
     Parameters
     ----------
     path
-        Where it is to be.
+        Where it is to be; a link is written through.
     inputs
         Files that it must not be.
 
     Raises
     ------
     ConfigError
-        If the path is a folder or an input, or its folder is missing or cannot be written to.
+        If the path is a folder, an input, or no regular file, names another format, or lies in a folder that is missing
+        or cannot be written to.
     """
-    target = Path(path)
+    target = Path(os.path.realpath(path))
     folder = target.parent
     if target.is_dir():
         raise ConfigError(f"--output: {path} is a folder; allowed: the path of a file")
+    if target.exists() and not target.is_file():
+        raise ConfigError(f"--output: {path} is not a regular file; allowed: the path of a file")
     if not folder.is_dir():
         raise ConfigError(f"--output: {path}: the folder {folder} does not exist")
     if any(target.exists() and target.samefile(other) for other in inputs if os.path.exists(other)):
         raise ConfigError(f"--output: {path} is the input; allowed: the path of another file")
+    if target.suffix.lower() in OTHER_FORMATS:
+        raise ConfigError(f"--output: {path}: a record is a NetCDF file; allowed: a name that ends in .nc")
     probe = folder / f".{target.name}.{os.getpid()}.probe"
     try:
         probe.touch(exist_ok=False)

@@ -4,7 +4,10 @@ import os
 import subprocess
 import sys
 import time
+from pathlib import Path
 
+import netCDF4
+import numpy as np
 import pytest
 
 from subslide.__main__ import main
@@ -75,6 +78,34 @@ def test_bad_outputs(capsys, tmp_path, write_yaml):
     assert "is the input" in complaint(capsys, "run", "--config", "point.yaml", "-o", "point.yaml")
     assert "--output" in complaint(capsys, "run", *QUICK)
     assert "cannot be written" in complaint(capsys, "run", *QUICK, "-o", "/proc/x.nc")
+
+
+def test_an_output_is_no_raster_that_the_run_reads(capsys):
+    with netCDF4.Dataset("grains.nc", "w") as data:
+        for name in ("x", "y"):
+            data.createDimension(name, 4)
+            data.createVariable(name, "f8", (name,))[:] = 0.01 * np.arange(4)
+        data.createVariable("h2", "f8", ("y", "x"))[:] = 0.01
+    before = Path("grains.nc").read_bytes()
+    os.link("grains.nc", "same.nc")
+    os.symlink("grains.nc", "link.nc")
+    for output in ("grains.nc", "same.nc", "link.nc", "./grains.nc"):
+        scene = ("--scene", "raster", "--scene-options", "file=grains.nc")
+        assert "is the input" in complaint(capsys, "run", "--cells", "20", *scene, "-o", output)
+    assert Path("grains.nc").read_bytes() == before
+
+
+def test_an_output_is_a_regular_file_or_a_link_to_one(capsys):
+    os.mkfifo("pipe.nc")
+    os.symlink("pipe.nc", "to_pipe.nc")
+    for output in ("pipe.nc", "to_pipe.nc"):
+        assert "not a regular file" in complaint(capsys, "run", *QUICK, "-o", output)
+    assert "NetCDF" in complaint(capsys, "run", *QUICK, "-o", "table.csv")
+    Path("kept.nc").write_text("old")
+    os.symlink("kept.nc", "link.nc")
+    assert main(["run", *QUICK, "-o", "link.nc"]) == 0
+    assert os.path.islink("link.nc")
+    assert read("kept.nc")[1]["model"] == "radial"
 
 
 def test_bad_verbs_and_their_inputs(capsys):

@@ -14,7 +14,7 @@ from subslide.keys.words import unit_of
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
-OURS = ("role", "axis", "lean", "allowed", "presets", "unit", "description", "default")
+OURS = ("role", "axis", "reads", "lean", "allowed", "presets", "unit", "description", "default")
 """Words of an entry that are not of JSON Schema, or stand beside its rule for a value."""
 
 

@@ -85,6 +85,23 @@ def options(point: Point) -> dict[str, Any]:
     return {**defaults(point.scene), **dict(point.scene_options)}
 
 
+def files(point: Point) -> list[str]:
+    """Return the paths of the files that the point's scene reads: its options marked as `reads`.
+
+    Parameters
+    ----------
+    point
+        The run.
+
+    Returns
+    -------
+    list of str
+        Paths as the options state them; empty for most scenes.
+    """
+    about = load(point.scene).OPTIONS
+    return [str(value) for name, value in options(point).items() if about[name].get("reads")]
+
+
 def symmetry(point: Point) -> str:
     """Return the symmetry of the point's scene: "round", "line", "quarter" or "none"."""
     return load(point.scene).symmetry(point)

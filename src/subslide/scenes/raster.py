@@ -26,6 +26,7 @@ OPTIONS: dict[str, Entry] = {
         "type": "string",
         "minLength": 1,
         "axis": False,
+        "reads": True,
         "allowed": "the path of a NetCDF file",
     },
     "method": {
