@@ -8,7 +8,8 @@ READY := .venv/.ready
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 export CONFIG CORES
 
-.DEFAULT_GOAL := paper
+# `make CONFIG=config/mine.yaml` means that study, never the paper's
+.DEFAULT_GOAL := $(if $(filter command,$(origin CONFIG)),study,paper)
 .PHONY: paper study test setup docs clean help
 
 paper: $(READY)  ## set up, then the paper's study to figures and report

@@ -1,6 +1,7 @@
 """The command line, `subslide`: its verbs, and the exit status and one line that each way to fail has."""
 
 import importlib
+import io
 import os
 import sys
 
@@ -55,6 +56,9 @@ def _complain(message: str, code: int) -> int:
 
 def entry() -> None:
     """End the process at once with the status of `main`: tearing down compiled code takes longer than a radial run."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")  # a locale may lack the letters of a line
     status = main()
     sys.stdout.flush()
     sys.stderr.flush()

@@ -223,3 +223,13 @@ def test_kernels_are_cached_in_a_folder_of_their_sources(tmp_path):
     assert folder({**environment, "NUMBA_CACHE_DIR": first}) == first  # as a child process sees it
     unwritable = {**environment, "NUMBA_CACHE_DIR": "/proc/none"}
     assert os.path.isdir(folder(unwritable))
+
+
+def test_a_locale_without_greek_letters_stops_nothing():
+    """The line of a result holds an eta, which Latin-1 has not."""
+    environment = {**os.environ, "PYTHONIOENCODING": "iso-8859-1"}
+    command = [sys.executable, "-m", "subslide", "run", *QUICK, "-o", "x.nc"]
+    done = subprocess.run(command, env=environment, capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert b"max|?|" in done.stdout
+    assert read("x.nc")[1]["status"] == "ok"

@@ -118,6 +118,22 @@ def test_a_study_ends_with_records_tables_and_report(finished):
     assert (finished.results / "logs/batch-0001.log").read_text().count("\n") == 3
 
 
+def test_a_figure_does_not_depend_on_its_surroundings(project):
+    """A notebook's backend, which is not installed, and the user's settings change no byte."""
+    command = [sys.executable, "-m", "subslide", "figure", "fig06_fronts", "--results", "results/small", "-o"]
+    plain = {name: value for name, value in os.environ.items() if name != "MPLBACKEND"}
+    subprocess.run([*command, "plain"], cwd=project.folder, env=plain, check=True, capture_output=True)
+    (project.folder / "matplotlibrc").write_text("text.usetex: True\nlines.linewidth: 9\n")
+    notebook = {**plain, "MPLBACKEND": "module://matplotlib_inline.backend_inline"}
+    done = subprocess.run(
+        [*command, "there"], cwd=project.folder, env=notebook, check=False, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    for kind in ("png", "svg"):
+        files = [project.folder / folder / f"fig06_fronts.{kind}" for folder in ("plain", "there")]
+        assert files[0].read_bytes() == files[1].read_bytes()
+
+
 def test_the_report_needs_no_network(finished):
     page = (finished.results / "report.html").read_text()
     assert not re.search(r"""<(script|link|img)[^>]+(src|href)=["']https?:""", page)

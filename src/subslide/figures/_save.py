@@ -1,6 +1,7 @@
 """Files of figures: the module of a figure is found, its figure of a finished study drawn and saved."""
 
 import importlib
+import os
 from pathlib import Path
 
 from subslide import catalogue
@@ -40,9 +41,11 @@ def save(name: str, results: Path, output: Path) -> list[Path]:
         raise ConfigError(
             f"--results: {results} has no tables/runs.csv; allowed: the folder of a finished study"
         )
+    os.environ["MPLBACKEND"] = "Agg"  # a notebook names one that need not be here, and importing would fail
     import matplotlib
 
     matplotlib.use("Agg")
+    matplotlib.rcdefaults()  # whatever the user's matplotlibrc says
     matplotlib.rcParams["svg.hashsalt"] = "subslide"
     from subslide.results import Results
 
