@@ -1,12 +1,14 @@
 """Each status of the contract, reached by a real run where one can reach it, else by a state put in by hand."""
 
+import time
+
 import numpy as np
 import pytest
 from states import advance, axial
 
 from subslide.kernels import clock as k
 from subslide.naming import STATUSES
-from subslide.solver import ENDED, solve
+from subslide.solver import ENDED, loop, solve
 from subslide.study.config import make_point
 
 SHEAR = {"scene": "shear", "boundary": "periodic", "delta": 0, "cells": 60, "t_end": 0.1}
@@ -58,3 +60,20 @@ def test_a_state_put_in_by_hand_reaches(code, status, h2):
     assert ENDED[outcome] == status
     assert len(samples) == 1
     assert "cell 7" in model.suspect()
+
+
+def test_compiling_is_said_once(monkeypatch, capsys):
+    """A loop that takes long to load says so; the same compiled code says it no more."""
+
+    class Slow:
+        settings, level = (), np.float64(1)
+
+        def advance(self, thresholds, track):
+            time.sleep(0.2)
+
+    monkeypatch.setattr(loop, "PATIENCE", 0.05)
+    monkeypatch.setattr(loop, "_loaded", set())
+    loop.warm_up(Slow())
+    assert capsys.readouterr().err == loop.COMPILING + "\n"
+    loop.warm_up(Slow())
+    assert capsys.readouterr().err == ""

@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 
 from subslide import naming
 from subslide.figures import _kinds, _slices, _style, _words
+from subslide.naming import FINISHED
 
 QUANTITY = f"x_front_{_words.THRESHOLD_LABEL}"
 LENGTH = f"L_f_{_words.THRESHOLD_LABEL}"
@@ -137,7 +138,7 @@ def lengths(
                 ax.plot(
                     rows["r"], final, look["marker"], color=look["color"], markeredgewidth=0, markersize=5
                 )
-            moving = rows["status"] == "not_at_rest"
+            moving = rows["time_at_rest"].isna()
             ax.plot(
                 rows["r"][moving], final[moving], "o", color="black", markerfacecolor="none", markersize=9
             )
@@ -154,5 +155,5 @@ def lengths(
 
 def ringed(runs: pd.DataFrame) -> str:
     """Return the sentence on rings, if there are any."""
-    moving = (runs["status"] == "not_at_rest").any()
+    moving = (runs["time_at_rest"].isna() & runs["status"].isin(FINISHED)).any()
     return " Rings: grains still moved at the end of the run." if moving else ""

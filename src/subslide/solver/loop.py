@@ -1,6 +1,8 @@
 """The time loop, in segments from one snapshot to the next."""
 
 import math
+import sys
+import threading
 import time
 from collections.abc import Callable
 
@@ -15,6 +17,14 @@ from subslide.naming import FRONT_THRESHOLDS
 CHUNK = 512
 """Samples between two looks at the clock on the wall."""
 
+PATIENCE = 5.0
+"""Seconds in which kernels that have been compiled before are loaded."""
+
+COMPILING = "subslide: compiling the kernels of this model, once: about a minute"
+
+_loaded: set[tuple[type, ...]] = set()
+"""Compiled code that this process has used."""
+
 
 def thresholds(model: Model) -> tuple[float, ...]:
     """Return the front's thresholds in the working precision."""
@@ -25,7 +35,18 @@ def thresholds(model: Model) -> tuple[float, ...]:
 def warm_up(model: Model) -> None:
     """Compile the time loop (or load it) with a segment of no length, which changes nothing but derived values."""
     track = Track(np.array([0.0, 0.0, math.inf, -1.0]), np.empty((2, samples.COLUMNS)), np.zeros(2, np.int64))
-    model.advance(thresholds(model), track)
+    code = type(model), type(model.settings), type(model.level)
+    if code in _loaded:
+        model.advance(thresholds(model), track)
+        return
+    notice = threading.Timer(PATIENCE, print, [COMPILING], {"file": sys.stderr})
+    notice.daemon = True
+    notice.start()
+    try:
+        model.advance(thresholds(model), track)
+    finally:
+        notice.cancel()
+    _loaded.add(code)
 
 
 def advance_to(
