@@ -96,6 +96,15 @@ def test_runs_that_differ_in_more_than_cells_are_not_compared(folder):
     assert rows["observed_order"].isna().all()
 
 
+def test_runs_of_one_grid_that_differ_in_physics_are_lines_of_their_own(folder):
+    """As in the study of stability, whose wave is solved at several densities."""
+    rows = table(folder(lambda point: (1 + point.r) / point.cells, order=1, **{**WAVE, "r": [0.2, 0.4]}))
+    lines = [line for line in _orders.lines(rows) if line.quantity == "h2"]
+    assert [line.cells for line in lines] == [[40, 80, 160]] * 2
+    assert [round(line.observed, 6) for line in lines] == [1, 1]
+    assert _orders.text(_orders.lines(rows))
+
+
 def test_failed_runs_fail_verification(folder):
     found = folder(lambda point: None if point.cells == 160 else 1 / point.cells, order=1, **WAVE)
     rows = table(found)

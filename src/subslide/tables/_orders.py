@@ -53,7 +53,10 @@ def lines(table: "pd.DataFrame") -> list[Line]:
     """
     table = table.assign(case=[case(row) for row in table.itertuples()])
     last = table[table["time"] == table.groupby([*GROUP, "cells"])["time"].transform("max")]
-    return [line(rows.sort_values("cells")) for _, rows in last.groupby(GROUP, sort=False)]
+    turn = (
+        last.groupby([*GROUP, "cells"]).cumcount().rename("turn")
+    )  # runs that differ in what no column here tells
+    return [line(rows.sort_values("cells")) for _, rows in last.groupby([*GROUP, turn], sort=False)]
 
 
 def line(rows: "pd.DataFrame") -> Line:

@@ -34,7 +34,7 @@ REQUIRED = ("standing_wave", "paraboloid one-layer")
 
 
 def order_between(coarse: "dict | pd.Series", fine: "dict | pd.Series") -> float:
-    """Return the observed order between two rows; NaN where an error is 0 or unknown."""
-    if not (coarse["error"] > 0 and fine["error"] > 0):
+    """Return the observed order between two rows; NaN where an error is 0 or unknown, or both have one grid."""
+    if not (coarse["error"] > 0 and fine["error"] > 0 and coarse["cells"] != fine["cells"]):
         return math.nan
     return math.log(coarse["error"] / fine["error"]) / math.log(fine["cells"] / coarse["cells"])
