@@ -3,18 +3,20 @@
 Only numpy, numba and netCDF4 are imported here, and late: start-up is most of a radial run's time.
 """
 
+import itertools
 import os
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from subslide.files import file_hash, write_text
+from subslide import checksums, source_hash
+from subslide.files import write_text
 from subslide.keys import schema
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
 from subslide.study import config, scene_options
-from subslide.study.batches import read_batch
+from subslide.study.batches import read_batch, spec_text
 from subslide.study.yaml_files import read_yaml
 
 if TYPE_CHECKING:
@@ -133,8 +135,8 @@ def solved(point: Point, threads: int, progress: Callable[[float], object] | Non
     return thinning.thinned(solver.solve(point, threads=threads, progress=progress))
 
 
-def batch(spec: str, threads: int, output: str) -> Iterator[str]:
-    """Solve the points of a batch file into one record.
+def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callable[[str], object]) -> None:
+    """Solve the points of a batch file into one record, with its checksum beside it.
 
     Parameters
     ----------
@@ -143,29 +145,54 @@ def batch(spec: str, threads: int, output: str) -> Iterator[str]:
     threads
         Cores for each run.
     output
-        Path of the record; its SHA-256 goes to `output`.sha256.
-
-    Yields
-    ------
-    str
-        A line as each run ends, and one on the record once it is written.
+        Path of the record.
+    ledger
+        Path of the file of the study's ledger that states the batch, written once its record is whole. With it, points
+        that are solved when the job is stopped, or fails, are kept as a batch of their own.
+    say
+        Function that is called with a line as each run ends, and with one on the record.
 
     Raises
     ------
     ConfigError
         If the file is no batch file, see `study.batches.read_batch`.
     """
-    from subslide.records import netcdf as records
+    from subslide.study.locks import at_work
 
     points = read_batch(spec)
-    results = []
-    for point in points:
-        results.append(solved(point, threads))
-        yield summary(results[-1])
-    Path(output + ".sha256").unlink(missing_ok=True)
+    results: list[Run] = []
+    with at_work(Path(os.path.realpath(output)).parent):
+        try:
+            for point in points:
+                results.append(solved(point, threads))
+                say(summary(results[-1]))
+            keep_batch(results, output, ledger)
+        except BaseException:
+            if ledger and results:
+                part = unused_part(ledger)
+                keep_batch(results, str(Path(output).with_name(f"{part.stem}.nc")), str(part))
+                say(f"stopped: the {len(results)} runs that were solved are kept as batch {part.stem}")
+            raise
+    say(f"{len(results)} runs -> {output}")
+
+
+def keep_batch(results: list["Run"], output: str, ledger: str | None) -> None:
+    """Write the record of runs, its checksum and, if it is given, the ledger's file, each whole or not at all."""
+    from subslide.records import netcdf as records
+
+    text = spec_text(result.point for result in results)
+    checksums.beside(output).unlink(missing_ok=True)
     records.write(output, results)
-    write_text(output + ".sha256", f"{file_hash(output)}  {Path(output).name}\n")
-    yield f"{len(results)} runs -> {output}"
+    checksums.seal(output, batch=checksums.text_hash(text), sources=source_hash())
+    if ledger:
+        write_text(ledger, text)
+
+
+def unused_part(ledger: str) -> Path:
+    """Return the path, beside a batch's file of the ledger, of the first part of it that is not there."""
+    path = Path(ledger)
+    parts = (path.with_name(f"{path.stem}p{n}.json") for n in itertools.count(1))
+    return next(part for part in parts if not part.exists())
 
 
 def warm(kernels: tuple[str, ...]) -> Iterator[str]:

@@ -8,7 +8,7 @@ import click
 import subslide
 from subslide.keys import words
 
-MODULES = tuple(f"{__name__}.{name}" for name in ("solving", "tabulating", "showing"))
+MODULES = tuple(f"{__name__}.{name}" for name in ("solving", "making", "tabulating", "showing"))
 """Modules with verbs, in the order that help lists them."""
 
 

@@ -1,4 +1,4 @@
-"""Verbs that check and solve: `run` for one collapse, and what the workflow's rules call."""
+"""Verbs that check and solve: `run` for one collapse, `check` for studies."""
 
 import gc
 from collections.abc import Callable, Iterable
@@ -80,22 +80,6 @@ def check(config: tuple[str, ...]) -> None:
             f"{path}: study '{study.name}', {len(study.runs)} runs{more}, {len(study.figures)} figures"
         )
         caution(study.points)
-
-
-@cli.command()
-@click.argument("spec")
-@click.option(
-    "--threads", type=click.IntRange(1, 1024), default=1, show_default=True, help="threads of the kernels"
-)
-@click.option("-o", "--output", required=True, metavar="FILE.nc", help="record to write (NetCDF-4)")
-def batch(spec: str, threads: int, output: str) -> None:
-    """Solve the points of a batch file, SPEC, into one record with its SHA-256 beside it."""
-    from subslide import jobs
-
-    jobs.check_output(output, inputs=[spec])
-    jobs.set_threads(threads)
-    for line in jobs.batch(spec, threads, output):
-        click.echo(line)
 
 
 @cli.command()
