@@ -1,12 +1,13 @@
 """The ledger: it only grows, points keep their batch, and jobs never extend it."""
 
 import json
+import os
 
 import pytest
 
 from subslide.files import file_hash
 from subslide.keys.schema import ConfigError
-from subslide.points import Point
+from subslide.points import Point, to_dict
 from subslide.study import batches, choice, config
 
 
@@ -139,12 +140,51 @@ def test_batch_files_hold_whole_points(tmp_path):
     assert sorted(read, key=lambda p: p.id) == sorted(points, key=lambda p: p.id)
 
 
-@pytest.mark.parametrize(
-    "text", ["", "{}", '{"points": [{"id": "p1"}]}', '{"points": [{"id": "p1", "a_H": "x"}]}', "[1]"]
-)
-def test_a_batch_file_that_was_edited_is_refused(tmp_path, text):
-    (tmp_path / "b.json").write_text(text)
-    with pytest.raises(ConfigError, match="b.json"):
+ROW = {"id": Point(cells=20).id, **to_dict(Point(cells=20))}
+EDITED = {
+    "nothing": ("", "not a batch file"),
+    "no points": ('{"points": []}', "kernels"),
+    "an empty list of points": ({"points": []}, "points: [] is not allowed"),
+    "a list": ([1], "not a batch file"),
+    "points that are none": ({"points": [3]}, "points[0]: 3 is no point"),
+    "points that are a mapping": ({"points": {"id": 1}}, "a list of points"),
+    "deep nesting": ("[" * 100_000, "RecursionError"),
+    "a huge integer": ('{"points": [' + "1" * 5000 + "]}", "not a batch file"),
+    "an unknown kernel": ({"kernels": "../../x"}, "kernels: ../../x"),
+    "a kernel that is a list": ({"kernels": []}, "kernels: []"),
+    "another id": ({"id": "p0"}, "belong to " + ROW["id"]),
+    "a value out of range": ({"r": 2.0}, "points[0]: r: 2.0 is not allowed; allowed: a number from 0"),
+    "not a number": ({"r": float("nan")}, "r: .nan"),
+    "text for a number": ({"a_H": "1"}, "a_H: '1' is text"),
+    "an unknown scene": ({"scene": "cylindr"}, "did you mean 'cylinder'?"),
+    "an unknown option": ({"scene_options": {"x": 1}}, "no such option"),
+    "values that do not go together": ({"model": "one-layer"}, "only with r: 0"),
+    "a key too many": ({"zzz": 1}, "zzz: there is no such key"),
+    "a key too few": ({"cfl": None}, "cfl: this key is missing"),
+}
+
+
+@pytest.mark.parametrize("what", EDITED)
+def test_a_batch_file_that_was_edited_is_refused(tmp_path, what):
+    text, part = EDITED[what]
+    if isinstance(text, dict):
+        row = {key: value for key, value in {**ROW, **text}.items() if value is not None and key != "kernels"}
+        batch = {"kernels": "radial:float64", "points": [row]}
+        text = {**batch, **{key: text[key] for key in batch if key in text}}
+        row.pop("points", None)
+        if "r" in row and row["r"] == 2:
+            row["id"] = Point(cells=20, r=2.0).id
+    path = tmp_path / "b.json"
+    path.write_text(text if isinstance(text, str) else json.dumps(text))
+    with pytest.raises(ConfigError) as caught:
+        batches.read_batch(path)
+    assert str(caught.value).startswith(f"{path}: ")
+    assert part in str(caught.value)
+
+
+def test_a_batch_file_is_a_regular_file(tmp_path):
+    os.mkfifo(tmp_path / "b.json")
+    with pytest.raises(ConfigError, match="a pipe"):
         batches.read_batch(tmp_path / "b.json")
 
 

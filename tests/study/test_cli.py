@@ -28,6 +28,22 @@ BAD = {
     ("--t-end", "rset"): ("--t-end", "rset", "did you mean 'rest'?"),
     ("--deltta", "30"): ("--deltta", "--delta"),
     ("--threads", "0"): ("--threads", "0"),
+    ("--threads", "1_0"): ("--threads", "1_0", "several ways"),
+    ("--threads", "1" * 5000): ("--threads", "1111"),
+    ("--cells", "0200"): ("--cells: 0200", "several ways"),
+    ("--cells", "1e400"): ("--cells: 1e400", "about 1e308"),
+    ("--cells", "1" * 5000): ("--cells: 1111", "about 1e308"),
+    ("--a-H", "1_0"): ("--a-H: 1_0", "several ways"),
+    ("--a-H", "1:30"): ("--a-H: 1:30", "several ways"),
+    ("--a-H", "'1'"): ("--a-H: '1'", "a number"),
+    ("--snapshot-times", "1,,2"): ("--snapshot-times: 1,,2", "an empty part"),
+    ("--snapshot-times", "0,0x1"): ("--snapshot-times: 0x1", "several ways"),
+    ("--scene", "a\0b"): ("--scene: a\\x00b", "control character"),
+    ("--scene", "x\udcff"): ("--scene: x\\udcff", "control character"),
+    ("--scene", "x\x1b[31m"): ("--scene: x\\x1b[31m", "control character"),
+    ("--scene-options", "angle=030"): ("--scene-options: 030", "several ways"),
+    ("--scene-options", "file=a\0b", "--scene", "raster"): ("--scene-options", "a\\x00b"),
+    ("--config", "a\0b"): ("a\\x00b", "null"),
     ("--config", "absent.yaml"): ("absent.yaml", "no such file"),
     ("extra",): ("extra",),
 }
@@ -71,12 +87,41 @@ def test_bad_configuration_of_run(text, part, capsys, write_yaml):
     assert part in complaint(capsys, "run", "--config", "point.yaml", "-o", "x.nc")
 
 
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        ("study: A/B", ("study: A/B", "lower-case letters")),
+        ("study: 2024", ("study: 2024 is a number", "in quotes")),
+        ("study: " + "a" * 300, ("study: aaa", "at most 64")),
+        ("bands: maybe", ("bands: maybe", "true or false")),
+        ("figures: 7", ("figures: 7", "auto, none or a list")),
+        ("figures: [fig06_frnts]", ("figures: fig06_frnts", "did you mean 'fig06_fronts'?")),
+    ],
+)
+def test_keys_of_a_study_are_checked_for_one_run_too(text, parts, capsys, write_yaml):
+    write_yaml(text, "point.yaml")
+    line = complaint(capsys, "run", *QUICK, "--config", "point.yaml", "-o", "x.nc")
+    assert line.startswith("subslide: point.yaml: ")
+    for part in parts:
+        assert part in line
+
+
+def test_what_says_nothing_of_one_run_is_told(capsys, write_yaml):
+    write_yaml("study: t\nfigures: none\nbands: true\na_H: [2]", "point.yaml")
+    assert main(["run", *QUICK, "--config", "point.yaml", "-o", "x.nc"]) == 0
+    assert capsys.readouterr().err == (
+        "subslide: point.yaml: bands: true has no meaning for one run and is left out\n"
+    )
+    assert read("x.nc")[0]["a_H"].values == 2
+
+
 def test_bad_outputs(capsys, tmp_path, write_yaml):
     assert "does not exist" in complaint(capsys, "run", *QUICK, "-o", "absent/x.nc")
     assert "is a folder" in complaint(capsys, "run", *QUICK, "-o", str(tmp_path))
     write_yaml("r: 0", "point.yaml")
     assert "is the input" in complaint(capsys, "run", "--config", "point.yaml", "-o", "point.yaml")
     assert "--output" in complaint(capsys, "run", *QUICK)
+    assert "--output: a\\x00b.nc has a control character" in complaint(capsys, "run", *QUICK, "-o", "a\0b.nc")
     assert "cannot be written" in complaint(capsys, "run", *QUICK, "-o", "/proc/x.nc")
 
 
