@@ -9,6 +9,7 @@ import click
 
 from subslide.commands import MODULES, cli
 from subslide.files import RecordError
+from subslide.keys import words
 from subslide.keys.schema import ConfigError
 
 BAD_INPUT, FAULT, INTERRUPTED = 2, 1, 130
@@ -50,7 +51,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _complain(message: str, code: int) -> int:
     """Print a message as one line on stderr, and return the exit status."""
-    print("subslide: " + " ".join(message.split()), file=sys.stderr)
+    print(words.printable(f"subslide: {message}"), file=sys.stderr)
     return code
 
 

@@ -3,6 +3,7 @@
 Only numpy, numba and netCDF4 are imported here, and late: start-up is most of a radial run's time.
 """
 
+import functools
 import itertools
 import os
 import sys
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from subslide import checksums, source_hash
 from subslide.files import write_text
-from subslide.keys import schema
+from subslide.keys import plain, schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
 from subslide.study import config, scene_options
@@ -46,12 +47,18 @@ def point_of(path: str | None, options: dict[str, str]) -> Point:
     values = read_yaml(path) if path else {}
     names = {key: f"{path}: {key}" for key in values}
     for key, text in options.items():
-        mapping = key == "scene_options"
-        values[key] = scene_options.of_text(text, _value_of_text) if mapping else _value_of_text(text)
         names[key] = "--" + key.replace("_", "-")
+        if key == "scene_options" and isinstance(text, str):
+            values[key] = scene_options.of_text(text, functools.partial(_value_of_text, name=names[key]))
+        else:
+            values[key] = _value_of_text(text, names[key])
     if isinstance(values.get("snapshot_times"), int | float):
         values["snapshot_times"] = [values["snapshot_times"]]
-    return config.make_point(values, names)
+    point = config.make_point(values, names)
+    if values.get("bands"):
+        note = f"subslide: {path}: bands: true has no meaning for one run and is left out"
+        print(words.printable(note), file=sys.stderr)
+    return point
 
 
 OTHER_FORMATS = frozenset({
@@ -77,6 +84,8 @@ def check_output(path: str, inputs: list[str]) -> None:
         If the path is a folder, an input, or no regular file, names another format, or lies in a folder that is missing
         or cannot be written to.
     """
+    if plain.control(path):
+        raise ConfigError(f"--output: {path} has a control character; allowed: the path of a file")
     target = Path(os.path.realpath(path))
     folder = target.parent
     if target.is_dir():
@@ -242,18 +251,21 @@ def summary(result: "Run") -> str:
     return ", ".join(parts)
 
 
-def _value_of_text(text: Any) -> Any:
-    """Return the number, list of numbers or text that the text of an option stands for."""
+def _value_of_text(text: Any, name: str) -> Any:
+    """Return what the text of an option stands for: as in a file, or a list of such values parted by commas."""
     if not isinstance(text, str):
         return text
-    if "," in text:
-        return [_value_of_text(part.strip()) for part in text.split(",")]
-    for kind in (int, float):
+    if plain.control(text):
+        raise ConfigError(f"{name}: {words.show(text)} has a control character; allowed: text in one line")
+    values = []
+    for part in map(str.strip, text.split(",")):
+        if not part and "," in text:
+            raise ConfigError(f"{name}: {words.show(text)} has an empty part; allowed: values between commas")
         try:
-            return kind(text)
-        except ValueError:
-            continue
-    return text
+            values.append(plain.value_of(part))
+        except ValueError as error:
+            raise ConfigError(f"{name}: {words.cut(part)} {error}") from None
+    return values if "," in text else values[0]
 
 
 def _progress() -> Callable[[float], None]:

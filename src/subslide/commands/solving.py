@@ -7,8 +7,24 @@ from typing import Any
 import click
 
 from subslide.commands import cli
-from subslide.keys import schema, words
+from subslide.keys import plain, schema, words
 from subslide.points import RUN_KEYS, Point
+
+
+class Count(click.IntRange):
+    """Whole number within a range, written as in a file."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the number that a text stands for; a complaint of click if it is none, or out of range."""
+        try:
+            return super().convert(plain.value_of(value) if isinstance(value, str) else value, param, ctx)
+        except ValueError as error:
+            self.fail(f"{words.cut(value)} {error}", param, ctx)
+
+
+threads_option = click.option(
+    "--threads", type=Count(1, 1024), default=1, show_default=True, help="threads of the kernels"
+)
 
 
 def run_options(command: Callable) -> Callable:
@@ -39,9 +55,7 @@ def _help(key: str) -> str:
     "--config", metavar="FILE", help="YAML file of one point, with the keys of a study; options override it"
 )
 @run_options
-@click.option(
-    "--threads", type=click.IntRange(1, 1024), default=1, show_default=True, help="threads of the kernels"
-)
+@threads_option
 @click.option("-o", "--output", required=True, metavar="FILE.nc", help="record to write (NetCDF-4)")
 def run(config: str | None, threads: int, output: str, **options: Any) -> None:
     """Solve one collapse, print one line and write its record.

@@ -77,7 +77,8 @@ ENTRIES: dict[str, Entry] = {
         "description": "name of the study and of its folder under results/",
         "type": "string",
         "pattern": "^[a-z0-9_-]+$",
-        "allowed": "lower-case letters, digits, '_' and '-'",
+        "maxLength": 64,
+        "allowed": "at most 64 lower-case letters, digits, '_' and '-'",
     },
     "figures": {
         "role": STUDY,
@@ -267,7 +268,7 @@ ENTRIES: dict[str, Entry] = {
             {"enum": ["paper"]},
             {"type": "array", "items": {"type": "number", "minimum": 0, "maximum": 1e9}, "maxItems": 1000},
         ],
-        "allowed": "paper or a list of numbers from 0 to 1e+09",
+        "allowed": "paper or a list of at most 1,000 numbers from 0 to 1e+09",
         "default": "paper",
         "unit": "s",
     },

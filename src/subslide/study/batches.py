@@ -5,10 +5,11 @@ import math
 from collections.abc import Iterable
 from pathlib import Path
 
-from subslide import scenes
+from subslide.keys import words
 from subslide.keys.schema import ConfigError
-from subslide.points import Point, from_dict, paper_times, to_dict
-from subslide.study import choice
+from subslide.points import Point, paper_times, to_dict
+from subslide.study import checking, choice
+from subslide.study.yaml_files import read_text
 
 SECONDS = (2.0, 60.0)
 """Least and greatest estimated cost of a batch: starting a process costs a second; a lost batch at most a minute."""
@@ -22,7 +23,7 @@ PARTS = 16
 MOST_POINTS, MOST_BYTES = 250, 256e6
 """Limits of one record."""
 
-MOST_SPEC_BYTES = 100_000_000
+MOST_BATCH_BYTES = 100_000_000
 """Size from which on a file is no batch."""
 
 
@@ -38,23 +39,32 @@ def read_batch(spec: Path | str) -> list[Point]:
     Raises
     ------
     ConfigError
-        If it is no batch file, a point does not have its id, or its scene cannot be made.
+        If it is no batch file, a value is not allowed, or a point does not have its id: one line, which begins with
+        the path.
     """
+    text = read_text(spec, MOST_BATCH_BYTES)
     try:
-        rows = json.loads(Path(spec).read_text(encoding="utf-8"))["points"]
-        points = {row.pop("id"): from_dict(row) for row in rows}
-    except FileNotFoundError:
-        raise ConfigError(f"{spec}: there is no such file") from None
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        batch = json.loads(text)
+        rows, kernels = batch["points"], batch.get("kernels")  # which the version before this one stated
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise ConfigError(f"{spec}: not a batch file ({type(error).__name__}: {error})") from None
-    for name, point in points.items():
-        if point.id != name:
-            raise ConfigError(f"{spec}: the values of {name} belong to {point.id}; was the file edited?")
+    if not (isinstance(rows, list) and rows):
+        raise ConfigError(f"{spec}: points: {words.show(rows)} is not allowed; allowed: a list of points")
+    if kernels is not None and kernels not in choice.all_kernels():
+        hint = words.closest(kernels, choice.all_kernels())
+        raise ConfigError(f"{spec}: kernels: {words.show(kernels)}: there are none of that name{hint}")
+    points = []
+    for number, row in enumerate(rows):
         try:
-            scenes.check(point)
+            point = checking.point_of_row(row)
         except ConfigError as error:
-            raise ConfigError(f"{spec}: {name}: {error}") from None
-    return list(points.values())
+            raise ConfigError(f"{spec}: points[{number}]: {error}") from None
+        if point.id != row["id"]:
+            raise ConfigError(
+                f"{spec}: the values of {words.show(row['id'])} belong to {point.id}; was the file edited?"
+            )
+        points.append(point)
+    return points
 
 
 def split(points: list[Point]) -> list[list[Point]]:

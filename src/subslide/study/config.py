@@ -12,7 +12,7 @@ from subslide import catalogue
 from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS, Point, from_dict
-from subslide.study import scene_options, together
+from subslide.study import checking, scene_options, together
 from subslide.study.yaml_files import read_yaml
 
 MOST_POINTS = 200_000
@@ -91,19 +91,20 @@ def make_study(values: dict) -> Study:
     _check_keys(values)
     if "study" not in values:
         raise ConfigError(f"study: this key is missing; allowed: {words.allowed('study')}")
-    name = schema.checked("study", values["study"])
-    bands = schema.checked("bands", values.get("bands", False))
+    whole = _of_whole(values)
+    bands = whole["bands"]
     grids = _grids(values)
-    count = sum(math.prod(map(len, axes.values())) for _, axes in grids)
+    count = sum(map(_count, (axes for _, axes in grids))) * (1 + bands * len(COARSENING))
     if count > MOST_POINTS:
-        raise ConfigError(f"the grid has {count} points; allowed: at most {MOST_POINTS}")
+        among = ", companions for bands among them" if bands else ""
+        raise ConfigError(f"the grid has {count} points{among}; allowed: at most {MOST_POINTS}")
     runs: dict[str, tuple[str, Point]] = {}
     for place, axes in grids:
         with _named(place):
             for label, point in _product(axes, bands):
                 runs.setdefault(point.id, (label, point))
-    figures = _chosen_figures(values, [point for _, point in runs.values()])
-    return Study(name, figures, tuple(runs.values()), bands)
+    figures = _chosen_figures(whole["figures"], [point for _, point in runs.values()])
+    return Study(whole["study"], figures, tuple(runs.values()), bands)
 
 
 def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
@@ -112,7 +113,8 @@ def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
     Parameters
     ----------
     values
-        Value by key; a list of one value stands for the value.
+        Value by key; a list of one value stands for the value. Keys of a whole study but `cases` are checked, and
+        say nothing of the point.
     names
         What messages call a key, such as the option of the command line, where that is not its name.
 
@@ -132,6 +134,7 @@ def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
             f"cases: {words.show(values['cases'])} is not allowed for one run; allowed: only in a study"
         )
     names = names or {}
+    _of_whole(values, names)
     single = {}
     for key, value in values.items():
         if key not in CASE_KEYS:
@@ -173,10 +176,30 @@ def resolve(values: dict, names: dict[str, str] | None = None) -> tuple[str, Poi
     label = values.pop("numerics", schema.properties()["numerics"]["default"])
     point = from_dict({**schema.properties()["numerics"]["presets"][label], **values})
     together.check(point)
+    checking.mark(point)
     return label, point
 
 
-def _grids(values: dict) -> list[tuple[str, dict[str, list]]]:
+def _of_whole(values: dict, names: dict[str, str] | None = None) -> dict[str, Any]:
+    """Return the checked values of the keys of a whole study but its cases, with defaults for what is left out."""
+    whole = {}
+    for key in schema.with_role("study"):
+        about = schema.properties()[key]
+        if key != "cases" and (key in values or "default" in about):
+            whole[key] = schema.checked(
+                key, values.get(key, about.get("default")), (names or {}).get(key, key)
+            )
+    known = catalogue.names("figures")
+    for name in whole["figures"] if isinstance(whole["figures"], list) else ():
+        if name not in known:
+            key, hint = (names or {}).get("figures", "figures"), words.closest(name, known)
+            raise ConfigError(
+                f"{key}: {words.show(name)} is not allowed; allowed: {', '.join(known) or 'none'}{hint}"
+            )
+    return whole
+
+
+def _grids(values: dict) -> list[tuple[str, dict[str, Any]]]:
     """Return the place in messages, and the axes by key, of each case; without `cases` of the one grid, placeless."""
     shared = _axes(values)
     if "cases" not in values:
@@ -194,13 +217,22 @@ def _grids(values: dict) -> list[tuple[str, dict[str, list]]]:
     return grids
 
 
-def _axes(values: dict) -> dict[str, list]:
-    """Return the values along its axis, checked, of each key of a run that a mapping has."""
+def _axes(values: dict) -> dict[str, Any]:
+    """Return the values along its axis, checked, of each key of a run that a mapping has; scene options as given."""
     return {key: _axis(key, values[key]) for key in CASE_KEYS if key in values}
 
 
-def _product(axes: dict[str, list], bands: bool) -> Iterator[tuple[str, Point]]:
+def _count(axes: dict[str, Any]) -> int:
+    """Return the number of combinations of axes, none of which is made."""
+    return math.prod(
+        scene_options.count(values) if key == "scene_options" else len(values) for key, values in axes.items()
+    )
+
+
+def _product(axes: dict[str, Any], bands: bool) -> Iterator[tuple[str, Point]]:
     """Give the label of the numerics, and the point, of each combination of axes; `bands`: cells must halve twice."""
+    if "scene_options" in axes:
+        axes = {**axes, "scene_options": scene_options.along_axes(axes["scene_options"])}
     for combination in itertools.product(*axes.values()):
         label, point = resolve(dict(zip(axes, combination, strict=True)))
         coarsest, left = divmod(point.cells, max(COARSENING.values()))
@@ -238,10 +270,10 @@ def _check_keys(values: dict, known: Collection[str] | None = None) -> None:
         )
 
 
-def _axis(key: str, value: Any) -> list:
-    """Return the values of one key along its axis, checked, without repeats."""
+def _axis(key: str, value: Any) -> Any:
+    """Return the values of one key along its axis, checked, without repeats; scene options as given."""
     if key == "scene_options":
-        return scene_options.along_axes(schema.checked(key, value))
+        return schema.checked(key, value)
     if not (schema.is_axis(key) and isinstance(value, list)):
         return [schema.checked(key, value)]
     if not value:
@@ -252,20 +284,14 @@ def _axis(key: str, value: Any) -> list:
     return list(dict.fromkeys(entries))
 
 
-def _chosen_figures(values: dict, points: list[Point]) -> tuple[str, ...]:
+def _chosen_figures(chosen: Any, points: list[Point]) -> tuple[str, ...]:
     """Return the names of the figures of a study: those asked for, or all whose runs it has."""
-    chosen = schema.checked("figures", values.get("figures", "auto"))
     known = catalogue.names("figures")
     if chosen == "none":
         return ()
     if chosen == "auto":
         return tuple(name for name in known if not _lacking(name, points))
     for name in chosen:
-        if name not in known:
-            hint = words.closest(name, known)
-            raise ConfigError(
-                f"figures: {words.show(name)} is not allowed; allowed: {', '.join(known) or 'none'}{hint}"
-            )
         if lack := _lacking(name, points):
             raise ConfigError(f"figures: {name} needs runs with {lack}, which this study does not have")
     return tuple(name for name in known if name in chosen)

@@ -37,7 +37,7 @@ def hold(home: Path) -> None:
 
 @contextlib.contextmanager
 def at_work(folder: Path) -> Iterator[None]:
-    """Hold, within a block, the lock of jobs that write into a folder."""
+    """Hold the lock of jobs that write into a folder, within a block."""
     handle = os.open(folder, os.O_RDONLY)
     try:
         _locked(handle, fcntl.LOCK_SH)

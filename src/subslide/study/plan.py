@@ -16,7 +16,7 @@ from subslide import checksums, source_hash
 from subslide.checksums import text_hash
 from subslide.files import RecordError
 from subslide.points import Point, to_dict
-from subslide.study.batches import MOST_SPEC_BYTES, spec_text, split
+from subslide.study.batches import MOST_BATCH_BYTES, spec_text, split
 from subslide.study.config import Study
 
 NAME = re.compile(r"(\d{4,})(p\d+)?")
@@ -145,7 +145,7 @@ def _stated(folder: Path, asked: dict[str, Point]) -> dict[str, _Entry]:
     entries = {}
     for path in _files(folder):
         try:
-            if not path.is_file() or path.stat().st_size > MOST_SPEC_BYTES:
+            if not path.is_file() or path.stat().st_size > MOST_BATCH_BYTES:
                 continue
             text = path.read_text(encoding="utf-8")
             rows = {row["id"]: row for row in json.loads(text)["points"]}
