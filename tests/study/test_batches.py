@@ -57,7 +57,7 @@ def test_batch_files_hold_whole_points(tmp_path):
 ROW = {"id": Point(cells=20).id, **to_dict(Point(cells=20))}
 EDITED = {
     "nothing": ("", "not a batch file"),
-    "no points": ('{"points": []}', "kernels"),
+    "no points": ('{"points": []}', "points: [] is not allowed"),
     "an empty list of points": ({"points": []}, "points: [] is not allowed"),
     "a list": ([1], "not a batch file"),
     "points that are none": ({"points": [3]}, "points[0]: 3 is no point"),
