@@ -18,7 +18,7 @@ from subslide.records.netcdf import read
 
 QUICK = ("--model", "radial", "--cells", "20", "--t-end", "0.02")
 BAD = {
-    ("--r", "1.5"): ("--r", "1.5", "from 0 to below 1"),
+    ("--r", "1.5"): ("--r", "1.5", "from 0 to 0.99999"),
     ("--a-H", "-1"): ("--a-H", "-1", "from 0 to 1000"),
     ("--a-H", "nan"): ("--a-H", "nan"),
     ("--a-H", "1,2"): ("2 values",),

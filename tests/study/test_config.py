@@ -11,7 +11,7 @@ from subslide.points import RUN_KEYS, Point
 from subslide.study import config
 
 MISTAKES = {
-    "r: 1.5": ("r: 1.5", "from 0 to below 1"),
+    "r: 1.5": ("r: 1.5", "from 0 to 0.99999"),
     "a_H: -1": ("a_H: -1", "from 0 to 1000"),
     "cells: ten": ("cells: ten", "whole number from 10"),
     "cells: 200.5": ("cells: 200.5", "whole number"),
@@ -34,7 +34,7 @@ MISTAKES = {
     "scheme: ifcpf": ("scheme: ifcpf", "hll", "did you mean 'ifcp"),
     "model: Radial": ("model: Radial", "did you mean 'radial'?"),
     "t_end: rst": ("t_end: rst", "did you mean 'rest'?"),
-    "t_end: 0": ("t_end: 0", "above 0"),
+    "t_end: 0": ("t_end: 0", "from 1e-09 to 1e+09"),
     "snapshot_times: [0, -1]": ("snapshot_times", "-1", "list of at most 1,000 numbers"),
     "fields: 3": ("fields: 3", "true or false"),
     "fields: true": ("fields: true", "quarter, plane"),
@@ -61,7 +61,7 @@ MISTAKES = {
     "cases:": ("cases: nothing", "list of mappings"),
     "cases: {a_H: 1}": ("cases: ", "list of mappings"),
     "cases: [{}, 3]": ("cases[1]: 3", "a mapping of keys of a run"),
-    "cases: [{}, {}, {delta: 95}]": ("cases[2].delta: 95", "from 0 to below 90"),
+    "cases: [{}, {}, {delta: 95}]": ("cases[2].delta: 95", "from 0 to 89"),
     "cases: [{a_H: []}]": ("cases[0].a_H: []", "empty grid"),
     "cases: [{detla: 30}]": ("cases[0].detla", "30", "did you mean 'delta'?"),
     "cases: [{figur: none}]": ("cases[0].figur", "no such key"),

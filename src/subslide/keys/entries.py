@@ -121,11 +121,11 @@ ENTRIES: dict[str, Entry] = {
     "a_H": number(
         PHYSICS, "water depth above the column over the column's height, H1/H2", 1, minimum=0, maximum=1000
     ),
-    "a_2": number(PHYSICS, "aspect ratio of the column, H2/R", 0.56, exclusiveMinimum=0, maximum=100),
-    "r": number(PHYSICS, "density of water over density of grains", 0.4, minimum=0, exclusiveMaximum=1),
-    "delta": number(PHYSICS, "Coulomb friction angle", 32, "degree", minimum=0, exclusiveMaximum=90),
-    "radius": number(PHYSICS, "initial radius R of the column", 0.0705, "m", exclusiveMinimum=0, maximum=1e6),
-    "g": number(PHYSICS, "acceleration of gravity", 9.81, "m s-2", exclusiveMinimum=0, maximum=1000),
+    "a_2": number(PHYSICS, "aspect ratio of the column, H2/R", 0.56, minimum=1e-3, maximum=100),
+    "r": number(PHYSICS, "density of water over density of grains", 0.4, minimum=0, maximum=0.99999),
+    "delta": number(PHYSICS, "Coulomb friction angle", 32, "degree", minimum=0, maximum=89),
+    "radius": number(PHYSICS, "initial radius R of the column", 0.0705, "m", minimum=1e-6, maximum=1e6),
+    "g": number(PHYSICS, "acceleration of gravity", 9.81, "m s-2", minimum=1e-6, maximum=1000),
     "scene": {
         "role": SCENE,
         "description": "initial state; see Scenes",
@@ -159,7 +159,7 @@ ENTRIES: dict[str, Entry] = {
         "turbulence coefficient of voellmy friction",
         500,
         "m s-2",
-        exclusiveMinimum=0,
+        minimum=1e-3,
         maximum=1e9,
     ),
     "delta_2": number(
@@ -168,7 +168,7 @@ ENTRIES: dict[str, Entry] = {
         42,
         "degree",
         minimum=0,
-        exclusiveMaximum=90,
+        maximum=89,
     ),
     "pouliquen_length": number(
         PHYSICS,
@@ -176,7 +176,7 @@ ENTRIES: dict[str, Entry] = {
         " delta_2 to delta",
         0.005,
         "m",
-        exclusiveMinimum=0,
+        minimum=1e-6,
         maximum=1e6,
     ),
     "model": choice(
@@ -240,7 +240,7 @@ ENTRIES: dict[str, Entry] = {
         "Courant number of the time step; up to 1 every solver is meant to be stable, beyond it only the search for the"
         " limit belongs",
         0.9,
-        exclusiveMinimum=0,
+        minimum=0.01,
         maximum=4,
     ),
     "boundary": choice(
@@ -254,8 +254,8 @@ ENTRIES: dict[str, Entry] = {
         "role": SCENE,
         "description": "end time, or rest: until the grains are at rest and the last snapshot is taken, up to a cap in"
         " scaled time",
-        "anyOf": [{"enum": ["rest"]}, {"type": "number", "exclusiveMinimum": 0, "maximum": 1e9}],
-        "allowed": "rest or a number above 0, at most 1e+09",
+        "anyOf": [{"enum": ["rest"]}, {"type": "number", "minimum": 1e-9, "maximum": 1e9}],
+        "allowed": "rest or a number from 1e-09 to 1e+09",
         "default": "rest",
         "unit": "s",
         "axis": True,
