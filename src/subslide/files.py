@@ -1,4 +1,4 @@
-"""Files that are either whole or not there, and the hashes of their bytes."""
+"""Files that are either whole or not there, also after a signal, and the hashes of their bytes."""
 
 import contextlib
 import hashlib
@@ -14,6 +14,27 @@ class RecordError(Exception):
     """A file that is not a whole record: missing, cut short, damaged, or something else."""
 
 
+class Stopped(BaseException):
+    """A signal that ends the process, raised in its main thread: SIGTERM or SIGHUP; Ctrl-C is a KeyboardInterrupt.
+
+    Attributes
+    ----------
+    signal
+        Number of the signal.
+    said
+        The line to end with.
+    """
+
+    def __init__(self, signal: int, said: str = "interrupted; nothing was written"):
+        """Keep the signal, and what to say."""
+        super().__init__(said)
+        self.signal, self.said = signal, said
+
+
+unfinished: set[Path] = set()
+"""Temporary files that are being written."""
+
+
 @contextlib.contextmanager
 def replacing(path: Path | str) -> Iterator[Path]:
     """Give a temporary path beside `path` to a block, and move it to `path` once the block has ended well.
@@ -23,6 +44,7 @@ def replacing(path: Path | str) -> Iterator[Path]:
     """
     path = Path(os.path.realpath(path))
     temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex[:8]}.tmp")
+    unfinished.add(temporary)
     try:
         yield temporary
         _sync(temporary)
@@ -30,6 +52,7 @@ def replacing(path: Path | str) -> Iterator[Path]:
         _sync(path.parent)
     finally:
         temporary.unlink(missing_ok=True)
+        unfinished.discard(temporary)
 
 
 def write_text(path: Path | str, text: str) -> None:

@@ -120,7 +120,7 @@ def run(point: Point, threads: int, output: str) -> str:
     """
     from subslide.records import netcdf as records
 
-    result = solved(point, threads, _progress() if sys.stderr.isatty() else None)
+    result = solved(point, threads, _progress(point) if sys.stderr.isatty() else None)
     records.write(output, [result])
     return f"{summary(result)} -> {output}"
 
@@ -229,17 +229,20 @@ def _value_of_text(text: Any) -> Any:
     return text
 
 
-def _progress() -> Callable[[float], None]:
-    """Return a function that shows the fraction done on the terminal, once a run has taken a while."""
+def _progress(point: Point) -> Callable[[float], None]:
+    """Return a function that shows on the terminal the time that a run has reached, once it has taken a while."""
     import time
 
     start = last = time.monotonic()
+    aim = "until rest" if point.t_end is None else f"of {point.t_end:.4g} s"
 
-    def show(fraction: float) -> None:
+    def show(reached: float) -> None:
         nonlocal last
         now = time.monotonic()
         if now - start > 2 and now - last > 0.5:
             last = now
-            print(f"\r{fraction:4.0%} ", end="\r", file=sys.stderr, flush=True)
+            print(
+                f"\r{reached:.4g} s {aim}, after {now - start:.0f} s  ", end="\r", file=sys.stderr, flush=True
+            )
 
     return show
