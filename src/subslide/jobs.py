@@ -6,13 +6,14 @@ Only numpy, numba and netCDF4 are imported here, and late: start-up is most of a
 import functools
 import itertools
 import os
+import signal
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from subslide import checksums, source_hash
-from subslide.files import write_text
+from subslide.files import Stopped, write_text
 from subslide.keys import plain, schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
@@ -131,7 +132,7 @@ def run(point: Point, threads: int, output: str) -> str:
     """
     from subslide.records import netcdf as records
 
-    result = solved(point, threads, _progress() if sys.stderr.isatty() else None)
+    result = solved(point, threads, _progress(point) if sys.stderr.isatty() else None)
     records.write(output, [result])
     return f"{summary(result)} -> {output}"
 
@@ -176,11 +177,15 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
                 results.append(solved(point, threads))
                 say(summary(results[-1]))
             keep_batch(results, output, ledger)
-        except BaseException:
-            if ledger and results:
-                part = unused_part(ledger)
-                keep_batch(results, str(Path(output).with_name(f"{part.stem}.nc")), str(part))
-                say(f"stopped: the {len(results)} runs that were solved are kept as batch {part.stem}")
+        except BaseException as error:
+            if not (ledger and results):
+                raise
+            part = unused_part(ledger)
+            keep_batch(results, str(Path(output).with_name(f"{part.stem}.nc")), str(part))
+            said = f"stopped: the {len(results)} runs that were solved are kept as batch {part.stem}"
+            if isinstance(error, KeyboardInterrupt | Stopped):
+                raise Stopped(getattr(error, "signal", signal.SIGINT), said) from None
+            say(said)
             raise
     say(f"{len(results)} runs -> {output}")
 
@@ -268,17 +273,20 @@ def _value_of_text(text: Any, name: str) -> Any:
     return values if "," in text else values[0]
 
 
-def _progress() -> Callable[[float], None]:
-    """Return a function that shows the fraction done on the terminal, once a run has taken a while."""
+def _progress(point: Point) -> Callable[[float], None]:
+    """Return a function that shows on the terminal the time that a run has reached, once it has taken a while."""
     import time
 
     start = last = time.monotonic()
+    aim = "until rest" if point.t_end is None else f"of {point.t_end:.4g} s"
 
-    def show(fraction: float) -> None:
+    def show(reached: float) -> None:
         nonlocal last
         now = time.monotonic()
         if now - start > 2 and now - last > 0.5:
             last = now
-            print(f"\r{fraction:4.0%} ", end="\r", file=sys.stderr, flush=True)
+            print(
+                f"\r{reached:.4g} s {aim}, after {now - start:.0f} s  ", end="\r", file=sys.stderr, flush=True
+            )
 
     return show

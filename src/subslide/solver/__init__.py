@@ -46,7 +46,7 @@ def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | 
     threads
         Cores for one plane run; no result depends on it.
     progress
-        Function that is called with the fraction of the run's time that is done.
+        Function that is called now and then with the time in s that the run has reached.
 
     Returns
     -------
@@ -101,7 +101,7 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
     for stop in sorted({*times, end}):
         clock[k.STOP] = stop / time_scale
         outcome, seconds = advance_to(
-            model, clock, chunks, lambda now: progress and progress(now * time_scale / end)
+            model, clock, chunks, lambda now: progress and progress(now * time_scale)
         )
         wall += seconds
         if stop in times and clock[k.NOW] >= clock[k.STOP]:
