@@ -24,6 +24,11 @@ def values(files: Iterable[Path], arguments: Iterable[str], default: Path) -> di
     default
         The file that is read if none is given.
 
+    Returns
+    -------
+    dict
+        Values as the file and the texts state them, unchecked but for their form.
+
     Raises
     ------
     ConfigError

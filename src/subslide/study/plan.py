@@ -75,7 +75,20 @@ class Plan(NamedTuple):
 
 
 def record_path(folder: Path, name: str) -> Path:
-    """Return the path of the record of a batch of the study in a folder."""
+    """Return the path of the record of a batch.
+
+    Parameters
+    ----------
+    folder
+        Folder of the study.
+    name
+        Name of the batch.
+
+    Returns
+    -------
+    Path
+        Where the record is, or will be.
+    """
     return folder / "records" / f"{name}.nc"
 
 

@@ -91,7 +91,20 @@ def stage(plan: Plan, home: Path) -> Staged:
 
 
 def staged(home: Path, key: str) -> Staged:
-    """Return a plan that another process has staged, by its key."""
+    """Return a plan that another process has staged.
+
+    Parameters
+    ----------
+    home
+        The study's folder within `.snakemake`.
+    key
+        Key of the plan.
+
+    Returns
+    -------
+    Staged
+        The plan as the other process has it, but for damage, which is that process's to mend.
+    """
     table = json.loads((home / f"plan-{key}.json").read_text(encoding="utf-8"))
     specs = {name: Path(path) for name, path in table["specs"].items()}
     needs = {name: Needs(*values) for name, values in table["needs"].items()}
@@ -136,7 +149,20 @@ def stamp(home: Path, name: str, outputs: Iterable[Path], whole: bool) -> Path:
 
 
 def are_whole(paths: Iterable[Path], **notes: str) -> bool:
-    """Return whether files are as they were written, and state these notes (`checksums.seal`)."""
+    """Return whether files are as they were written.
+
+    Parameters
+    ----------
+    paths
+        The files.
+    notes
+        What they must have been made from, see `checksums.seal`.
+
+    Returns
+    -------
+    bool
+        False also if one is missing.
+    """
     try:
         return all(notes.items() <= checksums.verify(path).items() for path in paths)
     except RecordError:
@@ -144,7 +170,20 @@ def are_whole(paths: Iterable[Path], **notes: str) -> bool:
 
 
 def holds(path: Path, text: str) -> bool:
-    """Return whether a file holds a text, and is as its checksum says."""
+    """Return whether a file holds a text, with the checksum of it beside.
+
+    Parameters
+    ----------
+    path
+        The file.
+    text
+        What it should hold.
+
+    Returns
+    -------
+    bool
+        False also if it is missing.
+    """
     try:
         checksums.verify(path)
         return path.read_text(encoding="utf-8") == text
