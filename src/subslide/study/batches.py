@@ -18,16 +18,15 @@ from typing import NamedTuple
 from subslide.files import file_hash, write_json
 from subslide.keys import words
 from subslide.keys.schema import ConfigError
-from subslide.points import Point, paper_times, to_dict
+from subslide.points import Point, to_dict
 from subslide.study import checking, choice
 from subslide.study.config import Study
+from subslide.study.cost import disk as _bytes
+from subslide.study.cost import seconds as cost
 from subslide.study.yaml_files import read_text
 
 SECONDS = (2.0, 60.0)
 """Least and greatest estimated cost of a batch: starting a process costs a second; a lost batch at most a minute."""
-
-SECONDS_PER_CELL = {"axial": 2.5e-8, "planar": 9e-8}
-"""Of one step and order of accuracy, on one core."""
 
 PARTS = 16
 """Batches that a set of new points makes if their cost allows it."""
@@ -171,20 +170,6 @@ def split(points: list[Point]) -> list[list[Point]]:
     return [batch for group in groups.values() for batch in _balanced(group, target)]
 
 
-def cost(point: Point) -> float:
-    """Return the estimated seconds of a run on one core: cells times steps, and a start.
-
-    A step is limited by the fastest wave, sqrt(g (H1 + H2)), over the paper's time unless the run has one of its own.
-    """
-    half = point.cells / 2
-    cells, kind = {"quarter": (half**2, "planar"), "plane": (4 * half**2, "planar")}.get(
-        choice.of(point).model, (half, "axial")
-    )
-    seconds = point.t_end or paper_times(point.radius)[-1]
-    steps = seconds * point.wave_speed / (point.cfl * point.dx) * (2 if kind == "planar" else 1)
-    return 0.005 + SECONDS_PER_CELL[kind] * cells * steps * point.order
-
-
 def damaged(folder: Path, batches: Iterable[str]) -> list[Path]:
     """Return the records whose bytes do not match the SHA-256 that was stored beside them.
 
@@ -222,12 +207,6 @@ def _balanced(points: list[Point], target: float) -> list[list[Point]]:
         filled[least] += cost(points[n])
         members[least].append(n)
     return [[points[n] for n in sorted(bin_)] for bin_ in members]
-
-
-def _bytes(point: Point) -> float:
-    """Return the estimated bytes of a run in a record."""
-    across = point.cells * 1.2
-    return 80.0 * 2.4 * across + (5 * 2 * 4 * across**2 if point.fields else 0)
 
 
 def _append(folder: Path, batches: list[list[Point]]) -> None:
