@@ -44,7 +44,9 @@ class Victim:
             copy = shutil.copytree if (root / name).is_dir() else shutil.copy2
             copy(root / name, folder / name)
         for name in ("requirements.lock", "pyproject.toml"):
-            os.utime(folder / name, (1, 1))  # setting up is not what is tested, and must not touch the true folder
+            os.utime(
+                folder / name, (1, 1)
+            )  # setting up is not what is tested, and must not touch the true folder
         (folder / ".venv").mkdir()
         (folder / ".venv/bin").symlink_to(root / ".venv/bin")
         (folder / ".venv/.ready").touch()

@@ -7,7 +7,7 @@ import pytest
 
 from subslide.keys.schema import ConfigError
 from subslide.points import Point, to_dict
-from subslide.study import batches, choice, config
+from subslide.study import batches, choice, config, cost
 
 
 def study(**axes):
@@ -17,7 +17,7 @@ def study(**axes):
 def test_the_papers_study_is_balanced(root):
     solved = config.read_study(root / "config/paper.yaml").solved
     parts = batches.split(list(solved))
-    costs = [sum(map(batches.cost, batch)) for batch in parts]
+    costs = [sum(map(cost.seconds, batch)) for batch in parts]
     assert max(costs) < 1.1 * max(batches.SECONDS[0], sum(costs) / batches.PARTS)
     for cells in (3200, 200):  # what costs most is spread
         shares = [c for c, b in zip(costs, parts, strict=True) if b[0].cells == cells]
@@ -26,7 +26,7 @@ def test_the_papers_study_is_balanced(root):
 
 
 def test_the_round_column_is_cheap_where_the_model_is_left_open():
-    costs = {m: batches.cost(Point(model=m, cells=800)) for m in ("auto", "radial", "quarter", "plane")}
+    costs = {m: cost.seconds(Point(model=m, cells=800)) for m in ("auto", "radial", "quarter", "plane")}
     assert costs["auto"] == costs["radial"] < costs["quarter"] / 100 < costs["plane"] / 100
 
 
@@ -38,7 +38,7 @@ def test_batches_share_a_cell_size_and_kind_and_are_balanced():
     assert sorted(p.id for batch in parts for p in batch) == sorted(p.id for p in points)
     for batch in parts:
         assert len({(p.dx, choice.kernels(p)) for p in batch}) == 1
-    heavy = [sum(map(batches.cost, b)) for b in parts if (b[0].model, b[0].cells) == ("plane", 200)]
+    heavy = [sum(map(cost.seconds, b)) for b in parts if (b[0].model, b[0].cells) == ("plane", 200)]
     assert len(heavy) > 1
     assert max(heavy) <= 2 * min(heavy)
 

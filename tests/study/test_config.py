@@ -1,6 +1,7 @@
 """Configurations: what is accepted, and that each mistake gives one line with key, value and what is allowed."""
 
 import re
+import time
 
 import pytest
 
@@ -163,6 +164,52 @@ def test_too_many_points_in_all_cases_are_refused():
         config.make_study({"study": "t", "cases": [values, values]})
 
 
+def test_combinations_of_scene_options_are_counted_before_they_are_made():
+    options = {"x": [n / 1000 for n in range(400)], "y": [n / 1000 for n in range(400)]}
+    start = time.monotonic()
+    with pytest.raises(ConfigError, match="80000000 points; allowed: at most 200000"):
+        config.make_study({"study": "t", "scene": "columns", "cases": [{"scene_options": options}] * 500})
+    axes = {key: [0.1 + n / 1000 for n in range(500)] for key in ("a_H", "r", "a_2")}
+    with pytest.raises(ConfigError, match="125000000 points"):
+        config.make_study({"study": "t", **axes})
+    assert time.monotonic() - start < 3
+
+
+def test_companions_for_bands_count_as_points():
+    values = {"study": "t", "a_H": [n / 1000 for n in range(300)], "r": [n / 1000 for n in range(300)]}
+    with pytest.raises(ConfigError, match="270000 points, companions for bands among them"):
+        config.make_study({**values, "bands": True})
+
+
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        ("a_2: 1e-40", ("a_2: 1e-40", "from 0.001 to 100")),
+        ("radius: 1e-300", ("radius: 1e-300", "from 1e-06")),
+        ("r: 0.99999999", ("r: 0.99999999", "from 0 to 0.99999")),
+        ("g: 1e-30", ("g: 1e-30", "from 1e-06")),
+        ("cfl: 1e-9", ("cfl: 1e-09", "from 0.01 to 4")),
+        ("t_end: 1e-30", ("t_end: 1e-30", "from 1e-09")),
+        ("xi: 1e-30", ("xi: 1e-30", "from 0.001")),
+        ("pouliquen_length: 1e-30", ("pouliquen_length: 1e-30", "from 1e-06")),
+        ("delta: 89.999", ("delta: 89.999", "from 0 to 89")),
+        ("a_H: 1e-20", ("a_H: 1e-20 is lost beside 1 in float64", "0, or from 1.1e-16")),
+        ("a_H: 1e-9\ndtype: float32", ("a_H: 1e-09 is lost beside 1 in float32", "6e-08")),
+        ("delta: 1e-40\ndtype: float32", ("delta: 3.1", "no number of float32")),
+        (
+            "dtype: float32\nscene: columns\nscene_options: {x: 1e-40}",
+            ("x: 1e-40", "no number of float32", "1.18e-38"),
+        ),
+        ("dtype: [float64, float32]\ndelta: 1e-40", ("no number of float32",)),
+    ],
+)
+def test_values_that_the_equations_cannot_hold_are_refused(text, parts, write_yaml):
+    with pytest.raises(ConfigError) as caught:
+        config.read_study(write_yaml(f"study: t\n{text}\n"))
+    for part in parts:
+        assert part in str(caught.value)
+
+
 def test_a_run_takes_no_cases():
     with pytest.raises(ConfigError, match="cases.*only in a study"):
         config.make_point({"cases": [{"a_H": 1}]})
@@ -199,7 +246,7 @@ def test_numbers_that_yaml_reads_as_text_are_numbers(write_yaml):
 
 def test_defaults_of_points_are_those_of_the_schema():
     assert config.make_point({}) == Point()
-    assert set(schema.properties()) == {"study", "figures", "bands", "cases", "numerics", *RUN_KEYS}
+    assert set(schema.properties()) == {*schema.with_role("study", "preset"), *RUN_KEYS}
 
 
 def test_every_key_is_described():

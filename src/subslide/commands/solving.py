@@ -10,6 +10,9 @@ from subslide.commands import cli
 from subslide.keys import plain, schema, words
 from subslide.points import RUN_KEYS, Point
 
+LIMITS = ("max_core_hours", "max_memory", "max_disk")
+"""Keys of a study that say something of one run too."""
+
 
 class Count(click.IntRange):
     """Whole number within a range, written as in a file."""
@@ -29,7 +32,7 @@ threads_option = click.option(
 
 def run_options(command: Callable) -> Callable:
     """Return the command with one option for each key of a run; help texts come from the schema."""
-    for key in reversed(("numerics", *RUN_KEYS)):
+    for key in reversed((*LIMITS, "numerics", *RUN_KEYS)):
         about = schema.properties()[key]
         flag = "--" + key.replace("_", "-")
         default = about["default"]
@@ -85,13 +88,15 @@ def caution(points: Iterable[Point]) -> None:
 @click.argument("config", nargs=-1, required=True)
 def check(config: tuple[str, ...]) -> None:
     """Check study files, CONFIG..., and print one line for each, with cautions where runs lie in unsafe regions."""
+    from subslide.study import cost
     from subslide.study.config import read_study
 
     for path in config:
         study = read_study(path)
         more = f" and {len(study.solved) - len(study.runs)} companions for bands" if study.bands else ""
         click.echo(
-            f"{path}: study '{study.name}', {len(study.runs)} runs{more}, {len(study.figures)} figures"
+            f"{path}: study '{study.name}', {len(study.runs)} runs{more}, {len(study.figures)} figures,"
+            f" {cost.estimate(study.solved).words()}"
         )
         caution(study.points)
 

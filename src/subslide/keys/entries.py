@@ -71,6 +71,24 @@ def choice(role: str, description: str, default: Any, values: Any, listed: Calla
     return {"role": role, "description": description, **about}
 
 
+def limit(description: str, default: float, unit: str, minimum: float, maximum: float) -> Entry:
+    """Return the entry of a limit on what a study costs.
+
+    Parameters
+    ----------
+    description, default, unit, minimum, maximum
+        What the entry says, see above.
+
+    Returns
+    -------
+    Entry
+        The entry, of a key of a whole study.
+    """
+    text = f"{description}; a study, or one run, that needs more is refused before it starts"
+    about = {"type": "number", "minimum": minimum, "maximum": maximum, "default": default, "unit": unit}
+    return {"role": STUDY, "description": text, **about}
+
+
 ENTRIES: dict[str, Entry] = {
     "study": {
         "role": STUDY,
@@ -106,6 +124,9 @@ ENTRIES: dict[str, Entry] = {
         "allowed": "a list of mappings of keys of a run",
         "default": [{}],
     },
+    "max_core_hours": limit("hours on one core, as estimated, that a study may take", 100, "h", 1e-3, 1e7),
+    "max_memory": limit("memory, as estimated, that the largest run may take", 8, "GB", 0.1, 1e5),
+    "max_disk": limit("disk, as estimated, that records and tables may take", 20, "GB", 1e-3, 1e6),
     "numerics": {
         "role": PRESET,
         "description": "named set of model, scheme, order and cells; keys written out win over it",

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from subslide import catalogue
 from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS, Point, from_dict
-from subslide.study import checking, scene_options, together
+from subslide.study import checking, cost, scene_options, together, whole_study
 from subslide.study.yaml_files import read_yaml
 
 MOST_POINTS = 200_000
@@ -91,7 +90,7 @@ def make_study(values: dict) -> Study:
     _check_keys(values)
     if "study" not in values:
         raise ConfigError(f"study: this key is missing; allowed: {words.allowed('study')}")
-    whole = _of_whole(values)
+    whole = whole_study.values_of(values)
     bands = whole["bands"]
     grids = _grids(values)
     count = sum(map(_count, (axes for _, axes in grids))) * (1 + bands * len(COARSENING))
@@ -103,8 +102,10 @@ def make_study(values: dict) -> Study:
         with _named(place):
             for label, point in _product(axes, bands):
                 runs.setdefault(point.id, (label, point))
-    figures = _chosen_figures(whole["figures"], [point for _, point in runs.values()])
-    return Study(whole["study"], figures, tuple(runs.values()), bands)
+    figures = whole_study.figures_of(whole["figures"], [point for _, point in runs.values()])
+    study = Study(whole["study"], figures, tuple(runs.values()), bands)
+    cost.check(study.solved, whole, "the study")
+    return study
 
 
 def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
@@ -134,7 +135,7 @@ def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
             f"cases: {words.show(values['cases'])} is not allowed for one run; allowed: only in a study"
         )
     names = names or {}
-    _of_whole(values, names)
+    whole = whole_study.values_of(values, names)
     single = {}
     for key, value in values.items():
         if key not in CASE_KEYS:
@@ -144,7 +145,9 @@ def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
                 raise ConfigError(f"{key}: {words.show(value)} has {len(value)} values; a run takes one")
             value = value[0]
         single[key] = schema.checked(key, value, names.get(key, key))
-    return resolve(single, names)[1]
+    point = resolve(single, names)[1]
+    cost.check([point], whole, "the run")
+    return point
 
 
 def resolve(values: dict, names: dict[str, str] | None = None) -> tuple[str, Point]:
@@ -178,25 +181,6 @@ def resolve(values: dict, names: dict[str, str] | None = None) -> tuple[str, Poi
     together.check(point)
     checking.mark(point)
     return label, point
-
-
-def _of_whole(values: dict, names: dict[str, str] | None = None) -> dict[str, Any]:
-    """Return the checked values of the keys of a whole study but its cases, with defaults for what is left out."""
-    whole = {}
-    for key in schema.with_role("study"):
-        about = schema.properties()[key]
-        if key != "cases" and (key in values or "default" in about):
-            whole[key] = schema.checked(
-                key, values.get(key, about.get("default")), (names or {}).get(key, key)
-            )
-    known = catalogue.names("figures")
-    for name in whole["figures"] if isinstance(whole["figures"], list) else ():
-        if name not in known:
-            key, hint = (names or {}).get("figures", "figures"), words.closest(name, known)
-            raise ConfigError(
-                f"{key}: {words.show(name)} is not allowed; allowed: {', '.join(known) or 'none'}{hint}"
-            )
-    return whole
 
 
 def _grids(values: dict) -> list[tuple[str, dict[str, Any]]]:
@@ -282,26 +266,3 @@ def _axis(key: str, value: Any) -> Any:
         )
     entries = [schema.checked(key, entry) for entry in value]
     return list(dict.fromkeys(entries))
-
-
-def _chosen_figures(chosen: Any, points: list[Point]) -> tuple[str, ...]:
-    """Return the names of the figures of a study: those asked for, or all whose runs it has."""
-    known = catalogue.names("figures")
-    if chosen == "none":
-        return ()
-    if chosen == "auto":
-        return tuple(name for name in known if not _lacking(name, points))
-    for name in chosen:
-        if lack := _lacking(name, points):
-            raise ConfigError(f"figures: {name} needs runs with {lack}, which this study does not have")
-    return tuple(name for name in known if name in chosen)
-
-
-def _lacking(name: str, points: list[Point]) -> str:
-    """Return the first 'key: value' that a figure needs and no point has, or ''."""
-    for key, needed in catalogue.figure(name).needs.items():
-        present = {getattr(point, key) for point in points}
-        for value in needed:
-            if value not in present:
-                return f"{key}: {value}"
-    return ""

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from subslide import checksums
 from subslide.files import RecordError, write_text
-from subslide.study import batches
+from subslide.study import cost
 from subslide.study.plan import Batch, Plan, record_path
 
 LONG_AGO = 1
@@ -112,8 +112,10 @@ def staged(home: Path, key: str) -> Staged:
 
 
 def needs_of(batch: Batch) -> Needs:
-    """Return what the job of a batch may need."""
-    return Needs(2000, 10 + math.ceil(sum(map(batches.cost, batch.points)) / 20))
+    """Return what the job of a batch may need: its runs are kept until all are solved; kernels may need compiling."""
+    memory = max(map(cost.memory, batch.points)) + sum(map(cost.disk, batch.points))
+    minutes = sum(map(cost.seconds, batch.points)) / 60
+    return Needs(max(500, math.ceil(memory / 1e6)), math.ceil(10 + 2 * minutes))
 
 
 def stamp(home: Path, name: str, outputs: Iterable[Path], whole: bool) -> Path:
