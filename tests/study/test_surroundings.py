@@ -15,6 +15,10 @@ import pytest
 
 from subslide import _cache
 from subslide.kernels import cache
+from subslide.records.netcdf import read
+
+SHARED = dict(os.environ)
+"""Environment with the cache of kernels that all tests share."""
 
 LONG = ("run", "--cells", "8000", "--model", "radial", "--t-end", "1000", "-o", "x.nc")
 
@@ -139,6 +143,33 @@ def test_code_of_sources_that_have_changed_is_not_kept(tmp_path, monkeypatch):
     assert not kept(tmp_path)
 
 
+QUICK = f"{sys.executable} -m subslide run --model radial --cells 20 --t-end 0.01 -o x.nc"
+
+
+@pytest.mark.parametrize(
+    ("command", "status", "said"),
+    [
+        (f"{QUICK} >&-", 0, ""),
+        (f"{QUICK} <&- >&- 2>&-", 0, ""),
+        (f"{QUICK} >/dev/full", 1, "subslide: standard output: No space left on device\n"),
+        (f"{QUICK} --cfl 1.5 >/dev/null 2>/dev/full", 0, ""),
+        (f"set -o pipefail; {QUICK} | true", 0, ""),
+    ],
+)
+def test_closed_and_full_streams_leave_the_record_whole(command, status, said):
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, env=SHARED)
+    assert (done.returncode, done.stdout, done.stderr) == (status, "", said)
+    assert "x_front" in read("x.nc")[0]
+
+
+def test_a_layer_of_threads_that_is_none_gets_one_line():
+    environment = {**SHARED, "NUMBA_THREADING_LAYER": "nope"}
+    done = subprocess.run(QUICK.split(), capture_output=True, text=True, env=environment)
+    assert done.returncode == 2
+    assert done.stderr.startswith("subslide: NUMBA_THREADING_LAYER: nope cannot be used")
+    assert done.stderr.count("\n") == 1
+
+
 def until(true, seconds=10.0):
     """Wait until something holds."""
     give_up = time.monotonic() + seconds
@@ -162,9 +193,8 @@ def started(script):
 
 @pytest.mark.parametrize(("number", "status"), [("SIGINT", 130), ("SIGTERM", 143), ("SIGHUP", 129)])
 def test_a_signal_ends_a_run_soon_with_one_line(number, status):
-    environment = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
     command = [sys.executable, "-m", "subslide", *LONG]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=environment)
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=SHARED)
     time.sleep(1.5)
     process.send_signal(getattr(signal, number))
     sent = time.monotonic()
