@@ -40,8 +40,8 @@ def replacing(path: Path | str) -> Iterator[Path]:
     """Give a temporary path beside `path` to a block, and move it to `path` once the block has ended well.
 
     The data are on the disk before the name changes; after an error neither file is left behind. A link is written
-    through: it stays, and what it points to is replaced. An OSError names the file, also where the block raised another
-    error because the disk is full.
+    through: it stays, and what it points to is replaced. An OSError names the file, and a full disk where the block
+    raised another error because of it.
     """
     given, path = os.fspath(path), Path(os.path.realpath(path))
     temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex[:8]}.tmp")
@@ -52,10 +52,12 @@ def replacing(path: Path | str) -> Iterator[Path]:
         os.replace(temporary, path)
         _sync(path.parent)
     except Exception as error:
-        cause = error if isinstance(error, OSError) and error.errno else _fault_of_disk(temporary)
-        if cause is None or cause.filename not in (None, str(temporary)):
+        cause = _fault_of_disk(temporary)
+        if cause is None and isinstance(error, OSError) and error.filename in (None, str(temporary)):
+            cause = error
+        if cause is None:
             raise
-        raise OSError(cause.errno, f"cannot be written: {cause.strerror}", given) from None
+        raise OSError(cause.errno, f"cannot be written: {cause.strerror or cause}", given) from None
     finally:
         temporary.unlink(missing_ok=True)
         unfinished.discard(temporary)

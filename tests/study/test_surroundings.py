@@ -3,6 +3,7 @@
 import errno
 import fcntl
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -13,7 +14,8 @@ import time
 import numba
 import pytest
 
-from subslide import _cache
+from subslide import _cache, files
+from subslide.__main__ import main
 from subslide.kernels import cache
 from subslide.records.netcdf import read
 
@@ -162,6 +164,31 @@ def test_closed_and_full_streams_leave_the_record_whole(command, status, said):
     assert "x_front" in read("x.nc")[0]
 
 
+def test_a_full_disk_gets_one_line_and_leaves_the_file_from_before(capsys):
+    command = QUICK.split()[3:]
+    assert main(command) == 0
+    before = os.stat("x.nc")
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    for most in (0, 100, 5000):
+        capsys.readouterr()
+        resource.setrlimit(resource.RLIMIT_FSIZE, (most, hard))
+        try:
+            assert main(command) == 1
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+        assert capsys.readouterr() == ("", "subslide: x.nc: cannot be written: File too large\n")
+        assert os.listdir() == ["x.nc"]
+        assert os.stat("x.nc") == before
+
+
+def test_an_error_in_a_file_that_the_disk_did_not_make_is_its_own():
+    with pytest.raises(ValueError, match="mine"), files.replacing("x"):
+        raise ValueError("mine")
+    with pytest.raises(FileNotFoundError, match="absent"), files.replacing("x"):
+        os.stat("absent")
+    assert os.listdir() == []
+
+
 def test_a_layer_of_threads_that_is_none_gets_one_line():
     environment = {**SHARED, "NUMBA_THREADING_LAYER": "nope"}
     done = subprocess.run(QUICK.split(), capture_output=True, text=True, env=environment)
@@ -213,6 +240,7 @@ def test_a_signal_ends_native_code_and_removes_what_is_half_written():
             print("here", flush=True)
             hashlib.pbkdf2_hmac("sha256", b"", b"", 10**9)
     """)
+    time.sleep(0.5)  # it has printed, and must reach the native code
     assert len(os.listdir()) == 1
     process.send_signal(signal.SIGTERM)
     _, said = process.communicate(timeout=5)

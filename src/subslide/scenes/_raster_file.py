@@ -5,6 +5,7 @@ was cut short, and fetch names that look like addresses from the network. So a c
 in limited time, and sends what it finds.
 """
 
+import faulthandler
 import functools
 import hashlib
 import os
@@ -148,6 +149,7 @@ def _received(reader: int, seconds: float) -> bytes | None:
 def _answer(data: bytes, writer: int) -> NoReturn:
     """Do the child's work: send the variables in some bytes, or a message, and end."""
     try:
+        faulthandler.disable()
         signal.set_wakeup_fd(-1)
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             signal.signal(number, signal.SIG_DFL)
