@@ -9,7 +9,7 @@ import functools
 from pathlib import Path
 from typing import Any, NamedTuple
 
-PACKAGE = Path(__file__).resolve().parent
+from subslide._sources import PACKAGE, is_module
 
 
 class Figure(NamedTuple):
@@ -42,7 +42,8 @@ def names(room: str) -> list[str]:
     list of str
         Names of the files without '.py', sorted.
     """
-    return sorted(path.stem for path in (PACKAGE / room).glob("[a-z]*.py"))
+    paths = (PACKAGE / room).glob("[a-z]*.py")
+    return sorted(path.stem for path in paths if is_module(path.relative_to(PACKAGE)))
 
 
 @functools.cache
