@@ -84,6 +84,19 @@ def literals(room: str, name: str) -> dict[str, Any]:
     return constants
 
 
+@functools.cache
+def options_that_read(scene: str) -> frozenset[str]:
+    """Return the names of a scene's options that are paths of files it reads."""
+    stated = _constants("scenes", scene).get("OPTIONS") if scene in names("scenes") else None
+    entries = zip(stated.keys, stated.values, strict=True) if isinstance(stated, ast.Dict) else ()
+    return frozenset(
+        str(name.value)
+        for name, entry in entries
+        if isinstance(name, ast.Constant) and isinstance(entry, ast.Dict)
+        if any(isinstance(word, ast.Constant) and word.value == "reads" for word in entry.keys)
+    )
+
+
 def columns(name: str) -> list[str]:
     """Return the columns of a table whose names its module states as they are.
 
