@@ -39,6 +39,15 @@ def test_runs_take_the_steps_and_boxes_of_their_estimate_or_less(values):
     assert size.row >= len(run.x) - 2
 
 
+def peak(folder):
+    """Most bytes that a process which solves the point of a file has had."""
+    command = [sys.executable, "-m", "subslide", "run", "--config", "p.yaml", "-o", "x.nc"]
+    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL)
+    _, process.returncode, used = os.wait4(process.pid, 0)
+    assert process.returncode == 0
+    return used.ru_maxrss * 1024
+
+
 @pytest.mark.parametrize(
     "values", [{}, {"model": "quarter", "cells": 1000}, {"model": "plane", "cells": 500, "fields": True}]
 )
@@ -49,15 +58,8 @@ def test_a_process_keeps_to_its_memory(values, tmp_path):
     (tmp_path / "p.yaml").write_text(
         "\n".join(f"{key}: {str(value).lower()}" for key, value in values.items())
     )
-    words = ["run", "--config", "p.yaml", "-o", "x.nc"]
-    process = subprocess.Popen(
-        [sys.executable, "-m", "subslide", *words], cwd=tmp_path, stdout=subprocess.DEVNULL
-    )
-    _, status, used = os.wait4(process.pid, 0)
-    process.returncode = status
-    assert status == 0
-    kibibytes = used.ru_maxrss * 1024
-    assert kibibytes <= cost.memory(point) <= 1.7 * kibibytes
+    used = min(peak(tmp_path), peak(tmp_path))  # another process may have made the first one compile
+    assert used <= cost.memory(point) <= 1.7 * used
 
 
 def test_seconds_go_with_cells_steps_order_and_kernels():
