@@ -45,7 +45,7 @@ def point_of(path: str | None, options: dict[str, str]) -> Point:
     ConfigError
         If the file or an option is wrong: one line that names it.
     """
-    values = read_yaml(path) if path else {}
+    values = {} if path is None else read_yaml(path)
     names = {key: f"{path}: {key}" for key in values}
     for key, text in options.items():
         names[key] = "--" + key.replace("_", "-")

@@ -38,6 +38,15 @@ def test_runs_take_the_steps_and_boxes_of_their_estimate_or_less(values):
     assert size.row >= len(run.x) - 2
 
 
+def peak(folder):
+    """Most bytes that a process which solves the point of a file has had."""
+    command = [sys.executable, "-m", "subslide", "run", "--config", "p.yaml", "-o", "x.nc"]
+    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL)
+    _, process.returncode, used = os.wait4(process.pid, 0)
+    assert process.returncode == 0
+    return used.ru_maxrss * 1024
+
+
 @pytest.mark.parametrize(
     "values", [{}, {"model": "quarter", "cells": 1000}, {"model": "plane", "cells": 500, "fields": True}]
 )
@@ -48,15 +57,7 @@ def test_a_process_keeps_to_its_memory(values, tmp_path):
     (tmp_path / "p.yaml").write_text(
         "\n".join(f"{key}: {str(value).lower()}" for key, value in values.items())
     )
-    code = (
-        "from subslide.__main__ import main\n"
-        "assert main(['run', '--config', 'p.yaml', '-o', 'x.nc']) == 0\n"
-        "print(next(line for line in open('/proc/self/status') if line.startswith('VmHWM')))"
-    )
-    done = subprocess.run(  # what `wait` tells of a child may be its parent's memory
-        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True
-    )
-    used = 1024 * int(done.stdout.split("VmHWM:")[1].split()[0])
+    used = min(peak(tmp_path), peak(tmp_path))  # another process may have made the first one compile
     assert used <= cost.memory(point) <= 1.7 * used
 
 
