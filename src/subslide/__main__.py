@@ -11,6 +11,7 @@ import click
 
 from subslide.commands import MODULES, cli, interrupts
 from subslide.files import RecordError, Stopped
+from subslide.keys import words
 from subslide.keys.schema import ConfigError
 
 BAD_INPUT, FAULT = 2, 1
@@ -58,7 +59,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _complain(message: str, code: int) -> int:
     """Print a message as one line on stderr, and return the exit status."""
-    print("subslide: " + " ".join(message.split()), file=sys.stderr)
+    print(words.printable(f"subslide: {message}"), file=sys.stderr)
     return code
 
 

@@ -2,12 +2,10 @@
 
 import contextlib
 import hashlib
-import json
 import os
 import uuid
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 
 class RecordError(Exception):
@@ -75,23 +73,6 @@ def write_text(path: Path | str, text: str) -> None:
     """
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
-
-
-def write_json(path: Path | str, value: Any) -> None:
-    """Write a value as JSON to a file, whole or not at all; a file that holds it already is not touched.
-
-    Parameters
-    ----------
-    path
-        The file; its folder is there.
-    value
-        What JSON can hold, without NaN.
-    """
-    text = json.dumps(value, indent=1, allow_nan=False) + "\n"
-    with contextlib.suppress(OSError, UnicodeDecodeError):
-        if Path(path).read_text(encoding="utf-8") == text:
-            return
-    write_text(path, text)
 
 
 def file_hash(path: Path | str) -> str:

@@ -12,7 +12,7 @@ import subslide
 
 PACKAGE = Path(subslide.__file__).parent
 ROOMS = (
-    ("the bottom", ("_sources", "_cache", "catalogue", "files", "naming")),
+    ("the bottom", ("_sources", "_cache", "catalogue", "files", "checksums", "naming")),
     ("what may be asked", ("keys",)),
     ("one run's values", ("points",)),
     ("initial states", ("scenes",)),

@@ -4,27 +4,22 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from subslide.records import netcdf as records
 from subslide.results import Results
-from subslide.study import batches, config
-from subslide.study.batches import read_batch
+from subslide.study import config
 from subslide.tables import _write, runs, series
 
 
 @pytest.fixture
-def finished(tmp_path, make_run, write_tables):
+def finished(tmp_path, make_run, write_tables, solve_study):
     """Function that makes up a finished study and returns its folder."""
 
     def finish(changes=None, **axes):
         study = config.make_study({"study": "t", "model": "radial", "cells": 40, **axes})
-        plan = batches.plan(study, tmp_path, extend=True)
-        (tmp_path / "records").mkdir(exist_ok=True)
-        for name in plan.batches:
-            points = read_batch(tmp_path / "batches" / f"{name}.json")
-            solved = [
-                make_run(p, steps=10 + n, **(changes or {}).get(p.a_H, {})) for n, p in enumerate(points)
-            ]
-            records.write(tmp_path / "records" / f"{name}.nc", solved)
+
+        def solve(points):
+            return [make_run(p, steps=10 + n, **(changes or {}).get(p.a_H, {})) for n, p in enumerate(points)]
+
+        solve_study(study, tmp_path, solve)
         write_tables(tmp_path)
         return tmp_path
 

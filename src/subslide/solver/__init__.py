@@ -12,6 +12,7 @@ from subslide.points import Point
 from subslide.solver.answer import Snapshot, describe, make_run
 from subslide.solver.loop import advance_to, start_threads, warm_up
 from subslide.solver.run import Run
+from subslide.study.checking import check_point
 
 DRY_DEPTH = 1e-6
 """Over H2: below it a layer counts as dry (HLL instead of IFCP) and velocities are cut off smoothly."""
@@ -50,7 +51,13 @@ def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | 
     -------
     Run
         Its answer, in the box that its front did not reach, or in the largest.
+
+    Raises
+    ------
+    ConfigError
+        If the point is none that a study could ask for: one line.
     """
+    check_point(point)
     start_threads(threads)
     box = point.half_cells
     while True:
