@@ -27,7 +27,8 @@ SERIES = {
         "x_front",
         ("run", "front_threshold", "step"),
         "m",
-        "distance from the axis to the farthest point on the x axis where h2 exceeds the threshold",
+        "distance from the axis to the farthest point on the positive x axis where h2 exceeds the threshold; missing"
+        " where there is none",
     ),
     "max_abs_eta": Name("max|η|", STEP, "m", "largest displacement of the water surface in the initial box"),
     "max_abs_eta_outside": Name(
@@ -63,7 +64,7 @@ SCALARS = {
         "L_f",
         ("run", "front_threshold"),
         "m",
-        "length of the deposit along the x axis at the end of the run",
+        "length of the deposit along the positive x axis at the end of the run: x_front there",
     ),
     "time_at_rest": Name(
         "t_rest",
@@ -72,6 +73,13 @@ SCALARS = {
         "time since which no grain has moved (late waves may nudge a few)",
     ),
     "box_half_width": Name("L", ("run",), "m", "half-width of the computational box"),
+    "wave_free_until": Name(
+        "t_w",
+        ("run",),
+        "s",
+        "time when the first wave from the grains can be at the open edge of the box; after it what comes back from the"
+        " edge has a part in the water; missing without an open edge or without water",
+    ),
     "steps": Name("n", ("run",), "1", "number of time steps"),
     "wall_seconds": Name("", ("run",), "s", "wall time of the time loop alone"),
 }

@@ -168,11 +168,6 @@ class Point(Values):
         return self.half_cells * self.scaled_dx
 
     @property
-    def edge_time(self) -> float:
-        """Time (s) when the first wave, from R, is at the edge of the paper's box."""
-        return edge_time(self.a_H, self.a_2, self.radius, self.g)
-
-    @property
     def profile_times(self) -> tuple[float, ...]:
         """Times (s) of the snapshots, in order."""
         if self.snapshot_times is None:

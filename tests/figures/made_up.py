@@ -1,5 +1,7 @@
 """Made-up studies with plausible shapes, in the interface that figures read; no solver."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pandas as pd
 import xarray as xr
@@ -43,6 +45,8 @@ class MadeUpResults:
         self.records = {f"p{k:012d}": made_up_run({**DEFAULTS, **values}) for k, values in enumerate(runs)}
         self.runs = pd.DataFrame({"id": key, **data.attrs["row"]} for key, data in self.records.items())
         self.series = pd.concat([tidy(key, data) for key, data in self.records.items()], ignore_index=True)
+        point = SimpleNamespace(profile_times=[t * s for t in TIMES for s in scales(self.runs)])
+        self.runs_of_study = [SimpleNamespace(id=key, point=point) for key in self.records]
         rows = (
             [row for key, data in self.records.items() for row in made_up_bands(key, data)] if bands else []
         )
@@ -55,6 +59,11 @@ class MadeUpResults:
     def record(self, name):
         """Return the dataset of one run."""
         return self.records[name]
+
+
+def scales(runs):
+    """Return the ratios of the paper's times to those of columns of other radii."""
+    return np.sqrt(runs["radius"].unique() / 0.0705)
 
 
 def made_up_run(row):
@@ -73,7 +82,7 @@ def made_up_run(row):
     wave = (
         0.1 * height / row["a_H"] * (1 - 0.6 * row["r"]) * np.sin(np.pi * np.minimum(time / 0.3 / scale, 1))
     )
-    shots = np.array([t * scale for t in TIMES if t * scale <= time[-1]] + [time[-1]])
+    shots = np.array([t * scale for t in TIMES if t * scale < time[-1]] + [time[-1]])
     speed = np.sqrt(row["g"] * height * (1 + row["a_H"]))
     h2 = np.array([depth(x, np.interp(t, time, front), radius, height) for t in shots])
     eta = np.array(
@@ -87,6 +96,8 @@ def made_up_run(row):
     fronts = front * (1 - 4 * (thresholds[:, None] - 0.01))
     lengths = np.full(3, np.nan) if failed else fronts[:, -1]
     row = {**row, "dx": dx, "time_at_rest": np.nan if failed else rest}
+    wet = row["boundary"] == "open" and row["resolved_model"] != "one-layer"
+    row["wave_free_until"] = (row["cells"] / 2 * dx - radius) / speed if wet else np.nan
     for name, value in zip(("L_f_1pc", "L_f_3pc", "L_f_5pc"), lengths, strict=True):
         row |= {name: value, f"{name}_over_R": value / radius}
     return xr.Dataset(

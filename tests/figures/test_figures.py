@@ -198,6 +198,25 @@ def test_unit_of_lengths(length, name, factor):
     assert _words.length_unit(length) == (name, factor)
 
 
+def test_the_last_of_the_papers_times_has_its_panel_where_runs_end_there():
+    figure = draw("fig09_surface", MadeUpResults(grid((1, 2), (0.2, 0.4), until=0.54)))
+    titles = [ax.get_title() for ax in seen(figure)]
+    assert sum("540 ms" in title for title in titles) == 2
+    end = draw("fig05_h2_by_r", MadeUpResults(grid((1,), (0.2, 0.4), until=0.54)))
+    assert any("540 ms" in ax.get_title() for ax in seen(end))
+
+
+def test_panels_that_the_edge_of_the_box_has_a_part_in_are_grey_and_said_so():
+    figure = draw("fig09_surface", MadeUpResults(grid((1,), (0.2, 0.4))))
+    shades = [ax.get_facecolor()[0] for ax in seen(figure)]
+    assert shades == sorted(shades, reverse=True)  # early panels white, late ones grey
+    assert shades[0] == 1 > shades[-1]
+    assert "Grey panels: waves from the grains have been at the open edge" in words(figure)
+    walled = draw("fig09_surface", MadeUpResults(grid((1,), (0.2, 0.4), boundary="wall")))
+    assert {ax.get_facecolor()[0] for ax in seen(walled)} == {1}
+    assert "Grey" not in words(walled)
+
+
 def test_a_failed_run_has_no_final_profile():
     runs = grid((1,), (0, 0.4, 0.8))
     runs[1]["status"] = "diverged"

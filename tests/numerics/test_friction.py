@@ -5,6 +5,8 @@ import pytest
 from states import advance, axial, inner
 
 from subslide.kernels.friction import FLAGS as LAWS
+from subslide.keys.schema import ConfigError
+from subslide.study import config
 
 R, MU, U0 = 0.4, 0.5, 1.5
 A = (1 - R) * MU
@@ -93,3 +95,15 @@ def test_a_pile_at_rest_feels_only_coulomb(name, law):
     model = axial(EDGES, h1, 0.0, 1.0 - h1, 0.0, level=1.0, r=R, m=MU, order=2, law=LAWS[name], **law)
     advance(model, steps=200)
     np.testing.assert_array_equal(inner(model, "h2"), 1.0 - h1)
+
+
+@pytest.mark.parametrize("delta", [42, 45])
+def test_pouliquen_needs_more_friction_in_fast_flow_than_at_rest(delta):
+    with pytest.raises(
+        ConfigError, match=rf"delta_2: 42 .* pouliquen and delta: {delta}; allowed: above delta, {delta} to"
+    ):
+        config.make_point({"friction": "pouliquen", "delta": delta})
+    assert config.make_point({"friction": "coulomb", "delta": delta}).delta == delta  # delta_2 has no part
+    assert (
+        config.make_point({"friction": "pouliquen", "delta": delta, "delta_2": delta + 0.1}).delta_2 > delta
+    )

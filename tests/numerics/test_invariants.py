@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from states import advance, axial, inner
 
+from subslide import jobs
 from subslide.kernels import clock as k
 from subslide.kernels import samples as columns
 from subslide.keys.names import SCHEMES
@@ -104,6 +105,41 @@ def test_snapshots_are_taken_at_their_times_and_at_the_end():
     assert np.diff(run.time).min() > 1e-5
     assert run.time[-1] == pytest.approx(0.2)
     assert len(run.time) == run.steps + 1
+
+
+@pytest.mark.parametrize("t_end", [0.1, None])
+def test_a_run_that_ends_at_a_snapshot_keeps_it_once(t_end):
+    run = solve(Point(snapshot_times=(0.0, 0.05, 0.1 if t_end else 1.5), t_end=t_end, cells=60))
+    assert run.snapshot_time.tolist() == [0.0, 0.05, 0.1 if t_end else 1.5]
+    assert run.time[-1] == pytest.approx(run.snapshot_time[-1], rel=1e-14)
+    assert len(run.h2) == len(run.eta) == 3
+    assert np.isfinite(np.interp(0.07, run.snapshot_time, run.h2[:, 0]))
+
+
+def test_a_failed_run_has_its_end_beside_the_snapshots_before_it():
+    run = solve(
+        Point(cfl=4.0, delta=0.0, cells=60, boundary="wall", order=1, snapshot_times=(0.0, 9.0), t_end=9.0)
+    )
+    assert run.status != "ok"
+    assert run.snapshot_time.tolist() == [0.0, run.time[-1]]
+
+
+@pytest.mark.parametrize("place", [{"x": -2.0}, {"y": 2.0}])
+def test_a_column_off_the_positive_x_axis_has_no_front_and_no_length_there(place):
+    run = solve(Point(scene="columns", scene_options=tuple(place.items()), cells=40, t_end=0.02))
+    assert run.status == "ok"
+    assert np.isnan(run.x_front).all()
+    assert np.isnan(run.L_f).all()
+    assert np.isfinite(run.energy).all()
+    assert "L_f" not in jobs.summary(run)
+
+
+def test_a_front_begins_where_grains_come_onto_the_axis():
+    run = solve(Point(scene="columns", scene_options=(("x", -1.2),), cells=40, t_end=0.2))
+    there = np.isfinite(run.x_front[0])
+    assert not there[0]
+    assert there[-1]
+    assert run.x_front[0][there].min() > 0
 
 
 def test_the_disc_is_exact_in_every_cell():

@@ -42,7 +42,7 @@ def first_order(make_run):
 
 
 def test_every_quantity_has_its_row_and_the_limit_is_found(finish, first_order):
-    found = finish(first_order, a_H=[1, 2]).bands
+    found = finish(first_order, a_H=[1, 2], snapshot_times=[0, 0.5]).bands
     assert list(found.columns) == list(bands.COLUMNS)
     once, timed = found[found["time"].isna()], found[found["time"].notna()]
     assert set(once["quantity"]) == set(bands.ONCE)
@@ -54,6 +54,11 @@ def test_every_quantity_has_its_row_and_the_limit_is_found(finish, first_order):
     assert deposits["limit"].to_numpy() == pytest.approx(FINAL, rel=1e-9)
     assert (deposits["band"] > (deposits["limit"] - deposits["value"]).abs()).all()
     assert set(deposits["convergence"]) == {CONVERGING}
+
+
+def test_an_end_at_a_snapshot_that_was_asked_for_is_compared(finish, first_order):
+    rows = finish(first_order, a_H=1, snapshot_times=[0, 0.5, 1]).bands
+    assert set(rows["time"].dropna()) == {0.5, 1.0}
 
 
 def test_the_table_of_runs_repeats_bands_and_holds_no_companion(finish, first_order):

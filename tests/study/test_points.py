@@ -139,6 +139,7 @@ def test_a_point_knows_what_follows_from_it():
     assert point.dx == pytest.approx(point.scaled_dx * point.radius)
     assert point.half_cells == 51
     assert point.half_box == pytest.approx(51 * 0.6 / 101 / 0.0705)
-    assert point.edge_time == pytest.approx((0.3 / 0.0705 - 1) * 0.2 / math.sqrt(3))
+    edge_time = points.edge_time(point.a_H, point.a_2, point.radius, point.g)
+    assert edge_time == pytest.approx((0.3 / 0.0705 - 1) * 0.2 / math.sqrt(3))
     assert Point().profile_times == (0, 0.08, 0.16, 0.24, 0.54)
     assert Point(snapshot_times=(0.2, 0.1)).profile_times == (0.1, 0.2)

@@ -28,6 +28,12 @@ SHARED = dict(os.environ)
 LONG = ("run", "--cells", "8000", "--model", "radial", "--t-end", "1000", "-o", "x.nc")
 
 
+@pytest.fixture(autouse=True, scope="module")
+def compiled():
+    """Kernels of a radius in the cache that all tests share, so that no command has to say that it compiles."""
+    solve(Point(model="radial", cells=20, t_end=0.01))
+
+
 @pytest.fixture(autouse=True)
 def apart(tmp_path, monkeypatch):
     """An empty folder for each test, within one with kernels of its own."""

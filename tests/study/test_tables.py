@@ -4,8 +4,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from subslide import solver
 from subslide.results import Results
-from subslide.study import config
+from subslide.study import cautions, config
 from subslide.tables import _write, runs, series
 
 
@@ -90,6 +91,27 @@ def test_volume_errors_count_only_what_cannot_have_left(make_run, finished):
     late[-1] = 1.0  # waves left the box
     results = Results(finished({1.0: {"water_volume": late[-11:], "boundary": "open"}}, a_H=[1], cells=12))
     assert results.runs["water_volume_error"].tolist() == [0.0]
+
+
+def test_a_run_whose_energy_rose_is_known_by_its_column(finished):
+    small = np.full(11, 1e-6)  # volumes that hold no energy at rest
+    fallen = {"energy": 3 - np.linspace(0, 1, 11), "sediment_volume": small, "water_volume": small}
+    risen = {**fallen, "energy": fallen["energy"] + np.where(np.arange(11) == 7, 2.2, 0.0)}
+    later = {**risen, "wave_free_until": 0.65}  # what the edge sends back has a part in the rise
+    rises = {}
+    for a_H, made in enumerate((fallen, risen, later), 1):
+        made = {"wave_free_until": np.nan, **made}
+        (rises[a_H],) = Results(finished({a_H: made}, a_H=[a_H])).runs["energy_rise"]
+    assert rises == pytest.approx({1: 0, 2: 0.7, 3: 0}, abs=1e-4)
+
+
+def test_the_film_of_the_caution_shows_its_rise(tmp_path, write_tables, solve_study):
+    film = cautions.REGIONS[0]
+    study = config.make_study({"study": "t", **film.example})
+    solve_study(study, tmp_path, lambda points: [solver.solve(point) for point in points])
+    (row,) = write_tables(tmp_path).runs.to_dict("records")
+    assert row["status"] == "ok"
+    assert row["energy_rise"] > 10
 
 
 def test_runs_have_their_points_and_variables_without_padding(finished):

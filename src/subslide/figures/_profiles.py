@@ -9,31 +9,36 @@ from subslide import naming
 from subslide.figures import _words
 
 if TYPE_CHECKING:
-    import xarray as xr
+    from subslide.results import Results
 
 
 class Profile(NamedTuple):
-    """One profile: time (s), position and value (m), if it is the last, if grains are at rest."""
+    """One profile: time (s), position and value (m), if asked for, if at the end of the run, if grains are at rest."""
 
     time: float
     x: np.ndarray
     values: np.ndarray
+    asked: bool
     last: bool
     at_rest: bool
 
 
-def of_record(record: "xr.Dataset", variable: str) -> list[Profile]:
+def of_run(results: "Results", name: str, variable: str) -> list[Profile]:
     """Return the finite profiles of a run, earliest first; from half a cell before the axis.
 
-    The last profile of a failed run, at no time that other runs have, is left out.
+    The profile at the end of a failed run, unless its time was asked for, is none that other runs have, and left out.
 
     Parameters
     ----------
-    record
-        Record of the run.
+    results
+        The study.
+    name
+        Id of the run.
     variable
-        Name of the profiles in it, such as ``h2``.
+        Name of the profiles in its record, such as ``h2``.
     """
+    record = results.record(name)
+    wanted = next(run.point.profile_times for run in results.runs_of_study if run.id == name)
     x = record["x"].to_numpy()
     times = np.atleast_1d(record["snapshot_time"].to_numpy())
     rest = float(record["time_at_rest"])
@@ -47,10 +52,10 @@ def of_record(record: "xr.Dataset", variable: str) -> list[Profile]:
         xs, values = x[seen], values[seen]
         if xs[0] > 0:
             xs, values = np.concatenate([-xs[:1], xs]), np.concatenate([values[:1], values])
-        last = k == len(times) - 1
-        if last and not finished:
-            continue
-        profiles.append(Profile(float(time), xs, values, last, last and rest <= time))
+        asked, end = float(time) in wanted, k == len(times) - 1
+        last = end and finished
+        if asked or last:
+            profiles.append(Profile(float(time), xs, values, asked, last, last and rest <= time))
     return profiles
 
 
@@ -62,8 +67,8 @@ def at(profiles: list[Profile], time: float | None) -> Profile | None:
 
 
 def times_of(runs: Iterable[list[Profile]], most: int) -> list[float]:
-    """Return up to `most` times (s) after release at which the runs have profiles, the end left out."""
-    seen = {float(f"{p.time:.6g}") for profiles in runs for p in profiles if not p.last and p.time > 0}
+    """Return up to `most` times (s) after release that were asked for and of which the runs have profiles."""
+    seen = {float(f"{p.time:.6g}") for profiles in runs for p in profiles if p.asked and p.time > 0}
     times = sorted(seen)
     if len(times) <= most:
         return times
@@ -82,7 +87,7 @@ def together(profiles: list[Profile], tolerance: float) -> list[list[Profile]]:
 def name_of(group: list[Profile]) -> str:
     """Return the words for a group of profiles: their times."""
     unit = _words.time_unit(max(p.time for p in group))
-    words = [f"{p.time * unit.factor:.4g}" for p in group if not p.last]
+    words = [f"{p.time * unit.factor:.4g}" for p in group if p.asked]
     text = ", ".join(words) + f" {unit.name}" if words else ""
     if group[-1].last:
         end = (

@@ -12,6 +12,9 @@ from subslide.figures import _kinds, _slices, _words
 if TYPE_CHECKING:
     from subslide.results import Results
 
+REFLECTED = "0.94"
+"""Shade of what the edge of the box may have a part in."""
+
 OUTSIDE = "max_abs_eta_outside"
 
 
@@ -30,9 +33,10 @@ def buoyant(runs: pd.DataFrame) -> tuple[pd.DataFrame, list[str]]:
     return runs, []
 
 
-def edge_time(row: pd.Series) -> float:
-    """Return when (s) the first wave of a run is at the edge of the paper's box."""
-    return _slices.column(row).edge_time
+def reflected(where: str, runs: pd.DataFrame) -> list[str]:
+    """Return the note on what is marked, in words, as waves are at the open edge of the box of any of the runs."""
+    text = "waves from the grains have been at the open edge of the box; what comes back from it has a part"
+    return [f"{where}: {text}."] if runs["wave_free_until"].notna().any() else []
 
 
 def convergence(

@@ -41,7 +41,7 @@ def draw(results: "Results") -> Figure:
     radius, height = _slices.sizes(runs)
     runout = laboratory.runout(runs.iloc[0]["a_2"])
     records = {row["a_H"]: results.record(row["id"]) for _, row in runs.iterrows()}
-    shapes = {a_H: _profiles.of_record(record, "h2") for a_H, record in records.items()}
+    shapes = {row["a_H"]: _profiles.of_run(results, row["id"], "h2") for _, row in runs.iterrows()}
 
     figure, (left, right) = _style.panels(2, 2, 2.9)
     main = _slices.nearest(list(shapes), 1)

@@ -33,7 +33,7 @@ def draw(results: "Results") -> Figure:
     runs = chosen.runs
     radius, height = _slices.sizes(runs)
     round_column = runs.iloc[0]["scene"] == "cylinder"
-    shapes = {row["r"]: _profiles.of_record(results.record(row["id"]), "h2") for _, row in runs.iterrows()}
+    shapes = {row["r"]: _profiles.of_run(results, row["id"], "h2") for _, row in runs.iterrows()}
     looks = _style.looks_of(shapes)
     times = [0.0, *_profiles.times_of(shapes.values(), 4), None]
     x_unit, unit, t_unit = (

@@ -58,8 +58,9 @@ def draw(results: "Results") -> Figure:
                 _line(ax, kind, row, quantity, curve, looks[row["r"]], times, units)
         for time in times:
             ax.axvline(time * units.time.factor, color=_style.GREY, linewidth=0.6, linestyle=":", zorder=0.5)
-        reached = _water.edge_time(rows.iloc[0]) * units.time.factor
-        ax.axvspan(reached, 1e3 * reached, color="0.94", zorder=0, linewidth=0)
+        reached = rows["wave_free_until"].min() * units.time.factor
+        if np.isfinite(reached):
+            ax.axvspan(reached, 1e3 * reached, color=_water.REFLECTED, zorder=0, linewidth=0)
         ax.set_title(_words.panel(k, f"{_words.equation('a_H', a_H)}, {ROWS[quantity]}"))
         if len(kinds) == 1:
             ax.set_ylim(bottom=0)
@@ -108,9 +109,9 @@ def _notes(
     stated = ", ".join(f"{time * unit.factor:.4g}" for time in times)
     scaled = "" if np.allclose(times, PAPER_TIMES) else " scaled by $\\sqrt{R}$"
     return [
-        f"Dotted lines and symbols: {stated} {unit.name}, the paper's times{scaled}. Grey: waves from $R$ have "
-        f"reached the edge of the watched box (half-width {PAPER_BOX:.2f} $R$); from then on its boundary has a part. "
-        f"Each row has its own scale.{_longest(kinds)}",
+        f"Dotted lines and symbols: {stated} {unit.name}, the paper's times{scaled}. The surface is watched to "
+        f"{PAPER_BOX:.2f} $R$. Each row has its own scale.{_longest(kinds)}",
+        *_water.reflected("Grey", shown),
         *_water.convergence(results, kinds, times[:2], unit),
     ]
 

@@ -37,8 +37,7 @@ def draw(results: "Results") -> Figure:
     looks = {r: look for r, look in _style.looks_of(runs["r"].unique()).items() if r in set(shown["r"])}
     round_column = chosen.runs.iloc[0]["scene"] == "cylinder"
     shapes = {
-        (row["a_H"], row["r"]): _profiles.of_record(results.record(row["id"]), "eta")
-        for _, row in shown.iterrows()
+        (row["a_H"], row["r"]): _profiles.of_run(results, row["id"], "eta") for _, row in shown.iterrows()
     }
     depths = sorted(shown["a_H"].unique()) or [np.nan]
     times = _profiles.times_of(shapes.values(), 4)
@@ -56,6 +55,8 @@ def draw(results: "Results") -> Figure:
         time, a_H = times[k // columns], depths[k % columns]
         where = f"{_words.equation('a_H', a_H)}, {_words.moment(time, t_unit)}"
         ax.set_title(_words.panel(k, where))
+        if (shown["wave_free_until"][shown["a_H"] == a_H] < time).any():
+            ax.set_facecolor(_water.REFLECTED)
         for r, look in looks.items():
             profile = _profiles.at(shapes.get((a_H, r), []), time)
             if profile is None:
@@ -85,6 +86,7 @@ def draw(results: "Results") -> Figure:
         notes += _water.beside(results, chosen, times[:2], t_unit)
     if missing:
         notes.append(f"No profile: {'; '.join(missing)}.")
-    notes += [*left_out, *dry, *chosen.notes, *_words.trouble(shown)]
+    late = shown[shown["wave_free_until"] < max(times, default=0.0)]
+    notes += [*_water.reflected("Grey panels", late), *left_out, *dry, *chosen.notes, *_words.trouble(shown)]
     title = f"Displacement of the water surface {_words.SYMBOLS['eta']} along $x$"
     return _style.finish(figure, title, chosen.about, notes, _style.handles(looks, "r", markers=False), 6)

@@ -44,12 +44,13 @@ def draw(results: "Results") -> Figure:
     """
     chosen = _slices.cut(results, a_H=1, r=0.4)
     runs, dry = _water.wet(chosen.runs)
-    record = results.record(chosen.runs.iloc[0]["id"])
+    name = chosen.runs.iloc[0]["id"]
     radius, height = _slices.sizes(chosen.runs)
     level = _slices.column(chosen.runs.iloc[0]).level
-    grains = _profiles.of_record(record, "h2")
+    grains = _profiles.of_run(results, name, "h2")
     times = _profiles.times_of([grains], 4) or [0.0]
-    water = [_profiles.at(_profiles.of_record(record, "eta") if len(runs) else [], time) for time in times]
+    waves = _profiles.of_run(results, name, "eta") if len(runs) else []
+    water = [_profiles.at(waves, time) for time in times]
     largest = max((_largest(profile, radius) for profile in water if profile is not None), default=0.0)
     scale = max((s for s in (1, 2, 5, 10, 20, 50, 100) if s * largest <= height / 2), default=1)
     x_unit, unit, t_unit = (

@@ -185,7 +185,7 @@ ENTRIES: dict[str, Entry] = {
     ),
     "delta_2": number(
         PHYSICS,
-        "friction angle of pouliquen friction in fast or thin flow; delta is the one at rest",
+        "friction angle of pouliquen friction in fast or thin flow, above delta, which is the one at rest",
         42,
         "degree",
         minimum=0,
@@ -284,7 +284,9 @@ ENTRIES: dict[str, Entry] = {
     "snapshot_times": {
         "role": OUTPUT,
         "description": "times of the profiles; paper is 0, 0.08, 0.16, 0.24 and 0.54 s at R = 0.0705 m, in proportion"
-        " to sqrt(R) elsewhere; the end of the run is always added",
+        " to sqrt(R) elsewhere; the end of the run is always added. A step ends at each, so many times shorten steps"
+        " and change the answer: at 400 cells 54 times change L_f by up to 0.1 %, 270 by 0.9 %, and these the peak of"
+        " max|eta| by 9 % (at first order by 29 %)",
         "anyOf": [
             {"enum": ["paper"]},
             {"type": "array", "items": {"type": "number", "minimum": 0, "maximum": 1e9}, "maxItems": 1000},

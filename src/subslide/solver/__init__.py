@@ -9,7 +9,7 @@ from subslide.kernels import clock as k
 from subslide.models.build import build
 from subslide.naming import STATUSES
 from subslide.points import Point
-from subslide.solver.answer import Snapshot, describe, make_run
+from subslide.solver.answer import Snapshot, describe, make_run, room_for_waves
 from subslide.solver.loop import advance_to, start_threads, warm_up
 from subslide.solver.run import Run
 from subslide.study.checking import check_point
@@ -90,6 +90,7 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
     end = cap if point.t_end is None else point.t_end
     times = [t for t in point.profile_times if t <= end]
     model = build(point, box, point.half_cells, DRY_DEPTH)
+    room = room_for_waves(point, model)
     clock = np.array([0.0, 0.0, math.inf, -1.0])
     if point.t_end is None:
         clock[k.REST_FROM] = max(times[-1] / time_scale if times else 0.0, np.nextafter(0.0, 1.0))
@@ -103,13 +104,15 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
             model, clock, chunks, lambda now: progress and progress(now * time_scale)
         )
         wall += seconds
-        if stop in times and clock[k.NOW] >= clock[k.STOP]:
+        reached = clock[k.NOW] >= clock[k.STOP]
+        if reached and stop in times:
             snapshots.append(Snapshot(stop, model.profile(), model.fields() if point.fields else None))
         if outcome != k.REACHED:
             break
-    last = float(clock[k.NOW] * time_scale)
-    snapshots.append(Snapshot(last, model.profile(), model.fields() if point.fields else None))
+    if not (reached and stop in times):  # else the end has its snapshot
+        last = float(clock[k.NOW] * time_scale)
+        snapshots.append(Snapshot(last, model.profile(), model.fields() if point.fields else None))
     sampled = np.concatenate(chunks)
     status = ENDED.get(outcome, "ok" if point.t_end is not None else "not_at_rest")
     detail = "" if status == "ok" else describe(status, model, sampled, time_scale)
-    return make_run(point, model, sampled, snapshots, (status, detail), wall, clock)
+    return make_run(point, model, sampled, snapshots, (status, detail), wall, clock, room)

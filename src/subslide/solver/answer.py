@@ -1,5 +1,6 @@
 """From the scaled samples and snapshots of a loop to a run in SI units and words."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -7,11 +8,16 @@ import numpy as np
 from subslide.kernels import clock as k
 from subslide.kernels import measures, samples
 from subslide.kernels.measures import Scales
+from subslide.models.limits import inner
 from subslide.models.model import Model
 from subslide.naming import FINISHED, FRONT_THRESHOLDS, STATUSES
 from subslide.points import Point
 from subslide.solver.run import Run
 from subslide.study import choice
+
+SMEARED = 4
+"""Cells by which a scheme lets a wave be early: where the box was tried against one six times as wide, the surface then
+differed by 0.3 % at most before `wave_free_until`, from 100 cells on and a_H 0.2 to 10."""
 
 
 class Snapshot(NamedTuple):
@@ -65,17 +71,73 @@ def series_in_si(model: Model, point: Point, sampled: np.ndarray) -> dict[str, n
     Returns
     -------
     dict
-        Series by name, see `Run`; NaN where the model lacks a layer.
+        Series by name, see `Run`; NaN where the model lacks a layer, or the x axis grains.
     """
     volume = model.copies * point.column_height * point.radius**model.dimensions
     si = Scales(point.radius, point.column_height, point.g, volume, model.copies)
     column = sampled.T
-    series = {"x_front": column[samples.FRONT : samples.FRONT + samples.FRONTS] * si.length}
+    front = column[samples.FRONT : samples.FRONT + samples.FRONTS]
+    series = {
+        "x_front": np.where(front > 0, front * si.length, np.nan)
+    }  # 0 where no cell reaches the threshold
     for name, measured in measures.SERIES.items():
         known = model.settings.layers >= measured.layers
         values = column[samples.COLUMN[name]]
         series[name] = measured.si(values, si) if known else np.full(len(sampled), np.nan)
     return series
+
+
+def room_for_waves(point: Point, model: Model) -> float:
+    """Return how far the outermost cell that is not still water is from the open edge of the box, less SMEARED cells.
+
+    Parameters
+    ----------
+    point
+        The run.
+    model
+        What is to be run, in its first state.
+
+    Returns
+    -------
+    float
+        Distance (m) along an axis; NaN without an open edge or without water.
+    """
+    if point.boundary != "open" or model.settings.layers == 1:
+        return math.nan
+    values = inner(model.cells, model.variables).values()
+    moved = np.any([value != value.flat[-1] for value in values], axis=0)
+    axes = range(moved.ndim)
+    used = [model.x[moved.any(axis=tuple(other for other in axes if other != axis))] for axis in axes]
+    reach = float(np.abs(np.concatenate(used)).max(initial=0.0))
+    return max(0.0, float(model.half_width - reach) - (SMEARED + 0.5) * point.scaled_dx) * point.radius
+
+
+def wave_free_until(point: Point, room: float, time: np.ndarray, eta: np.ndarray) -> float:
+    """Return when the first wave can be at the open edge of the box.
+
+    Waves of some height outrun sqrt(g H) on still water of depth H: a crest of height e moves at 3 sqrt(g (H + e)) -
+    2 sqrt(g H) (simple wave; a bore is slower).
+
+    Parameters
+    ----------
+    point
+        The run.
+    room
+        Distance (m) from `room_for_waves`.
+    time, eta
+        Times (samples) in s, and the largest displacement (m) of the surface beyond R.
+
+    Returns
+    -------
+    float
+        Time (s); beyond the end of the run if none can have been there, NaN as `room` is.
+    """
+    still = point.wave_speed
+    pace = 3 * np.sqrt(still**2 + point.g * np.fmax.accumulate(eta)) - 2 * still
+    gone = np.append(0.0, np.cumsum(pace[1:] * np.diff(time)))
+    if gone[-1] < room:
+        return float(time[-1] + (room - gone[-1]) / pace[-1])
+    return float(np.interp(room, gone, time))
 
 
 def in_metres(values: list[dict[str, np.ndarray]], name: str, height: float) -> np.ndarray:
@@ -106,6 +168,7 @@ def make_run(
     ended: tuple[str, str],
     wall: float,
     clock: np.ndarray,
+    room: float,
 ) -> Run:
     """Return the `Run` of a finished loop, in SI units.
 
@@ -125,6 +188,8 @@ def make_run(
         Seconds of the loop.
     clock
         Scaled times, see `kernels.clock`.
+    room
+        Distance (m) from `room_for_waves`.
 
     Returns
     -------
@@ -134,6 +199,7 @@ def make_run(
     height, time_scale = point.column_height, point.time_scale
     profiles = [snapshot.profile for snapshot in snapshots]
     whole = [snapshot.fields for snapshot in snapshots if snapshot.fields]
+    time = sampled[:, samples.TIME] * time_scale
     series = series_in_si(model, point, sampled)
     front = series["x_front"]
     status, detail = ended
@@ -147,7 +213,7 @@ def make_run(
         model_reason=choice.of(point).reason,
         dx=point.dx,
         x=model.x * point.radius,
-        time=sampled[:, samples.TIME] * time_scale,
+        time=time,
         series=series,
         snapshot_time=np.array([snapshot.time for snapshot in snapshots]),
         h2=in_metres(profiles, "h2", height),
@@ -160,6 +226,7 @@ def make_run(
         status_detail=detail,
         steps=len(sampled) - 1,
         wall_seconds=wall,
+        wave_free_until=wave_free_until(point, room, time, series["max_abs_eta_outside"]),
         time_at_rest=float(clock[k.REST_SINCE] * time_scale if rested else np.nan),
         box_half_width=model.half_width * point.radius,
     )

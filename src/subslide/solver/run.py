@@ -26,11 +26,11 @@ class Run:
         Times (samples) of the series in s.
     series
         Series by their names in `naming.SERIES`, each (samples), but for `x_front`, the front (thresholds, samples) in
-        m at each of `naming.FRONT_THRESHOLDS`.
+        m at each of `naming.FRONT_THRESHOLDS`, NaN while no cell beyond the axis reaches it.
     snapshot_time
         Times (snapshots) in s of the profiles (snapshots, x) and of the fields (snapshots, y, x), which are float32.
     L_f
-        Length of the deposit (thresholds) in m; NaN if the run failed.
+        Length of the deposit (thresholds) in m; NaN if the run failed, or none lies on the x axis.
     status, status_detail
         How the run ended, one of `naming.STATUSES`, and what ended it, in words.
     steps, wall_seconds
@@ -39,6 +39,8 @@ class Run:
         Time in s since which no grain has moved; NaN if there is none.
     box_half_width
         Half-width of the box in m.
+    wave_free_until
+        Time in s until which no wave can have been at the open edge of the box; NaN without one.
     """
 
     point: Point
@@ -59,6 +61,7 @@ class Run:
     status_detail: str
     steps: int
     wall_seconds: float
+    wave_free_until: float
     time_at_rest: float
     box_half_width: float
 

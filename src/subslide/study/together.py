@@ -25,6 +25,11 @@ def check(point: Point) -> None:
     _check_type(point)
     if point.model == "one-layer" and point.r != 0:
         raise ConfigError(f"model: one-layer is not allowed with r: {point.r:g}; allowed: only with r: 0")
+    if point.friction == "pouliquen" and point.delta_2 <= point.delta:
+        raise ConfigError(
+            f"delta_2: {point.delta_2:g} is not allowed with friction: pouliquen and delta: {point.delta:g}; allowed:"
+            f" above delta, {point.delta:g} to below 90 (degree)"
+        )
     scenes.check(point)
     models = choice.exact_models(point)
     if point.model not in ("auto", *models):

@@ -91,7 +91,7 @@ def table(results: "Results") -> list[dict]:
         **{one.id: one for one in results.companions},
     }
     by_batch = sorted(known.values(), key=lambda one: one.batch)
-    measured = {one.id: measure(record) for one, record in results.each(*MEASURED, among=by_batch)}
+    measured = {one.id: measure(one.point, record) for one, record in results.each(*MEASURED, among=by_batch)}
     compared: list[dict] = []
     for run in results.runs_of_study:
         names = (run.id, *(companions[run.id, role].id for role in COARSENING))
@@ -116,16 +116,18 @@ class Measured(NamedTuple):
     values: dict[tuple[str, float | None], float]
 
 
-def measure(record: dict) -> Measured:
+def measure(point: Point, record: dict) -> Measured:
     """Return the values of a run that bands compare.
 
-    Snapshots after the start count, but not the one that a run takes at its end, whose time depends on the grid.
+    Snapshots that were asked for count, after the start; the end of a run, whose time depends on the grid, does not.
     Series have a sample at every snapshot's time, so interpolation only bridges the round-off of that time.
 
     Parameters
     ----------
+    point
+        The run's.
     record
-        Variables MEASURED of the run, by name.
+        Variables MEASURED of it, by name.
     """
     series = {f"x_front_{label}": record["x_front"][n] for label, n in FRONT_LABELS.items()}
     series.update((name, record[name]) for name in WAVES)
@@ -134,10 +136,10 @@ def measure(record: dict) -> Measured:
     }
     for name in WAVES:
         values[f"{name}_peak", None] = float(np.nanmax(series[name], initial=-math.inf))
-    snapshots = record["snapshot_time"][:-1]
+    instants = [time for time in record["snapshot_time"].tolist() if time > 0 and time in point.profile_times]
     for name, entries in series.items():
-        for instant in snapshots[snapshots > 0]:
-            values[name, float(instant)] = float(np.interp(instant, record["time"], entries))
+        for instant in instants:
+            values[name, instant] = float(np.interp(instant, record["time"], entries))
     values = {key: value if math.isfinite(value) else math.nan for key, value in values.items()}
     return Measured(record["status"] in FINISHED, values)
 

@@ -146,10 +146,8 @@ def expected(point: Point, model: str) -> tuple[float, bool]:
 
 def times(point: Point, record: dict) -> list[float]:
     """Return the times (s) after the start at which runs on every grid have profiles: not the end of a run to rest."""
-    instants = [float(time) for time in record["snapshot_time"]][:-1]
-    if point.t_end is not None:
-        instants.append(point.t_end)
-    return sorted({time for time in instants if time > 0})
+    asked = {time for time in record["snapshot_time"].tolist() if time in point.profile_times}
+    return sorted(time for time in asked | ({point.t_end} - {None}) if time > 0)
 
 
 def judge(family: list[dict]) -> None:

@@ -14,6 +14,7 @@ from subslide.keys import schema, words
 from subslide.naming import FRONT_LABELS
 from subslide.points import PAPER_BOX, RUN_KEYS, options_text
 from subslide.study.config import Study
+from subslide.tables import _energy as energy
 from subslide.tables import bands
 
 if TYPE_CHECKING:
@@ -51,7 +52,10 @@ def _recorded(name: str, unit: str, meaning: str) -> Column:
 
 def _length(label: str, n: int) -> Column:
     """Return the column of the length of the deposit at one threshold of the front."""
-    about = f"length of the deposit along x at the end of the run; front where h2 = {label[:-2]} % of H2"
+    about = (
+        f"length of the deposit along +x at the end of the run; front where h2 = {label[:-2]} % of H2; empty where no"
+        " grains are"
+    )
     return Column("m", about, lambda run, record: record["L_f"][n])
 
 
@@ -85,6 +89,10 @@ MARGIN = (
 )
 WATCHED = "largest displacement of the water surface, over the initial box and all time"
 KEPT = "largest relative change of the volume of grains while nothing can have left the box"
+RISE = (
+    "largest rise of the energy after any moment, over what the start can release (its energy less that of flat layers"
+    f" at rest); of an open box until `wave_free_until`. Above {energy.GAINED:g} the answer is wrong in any status"
+)
 SCALED = "tan(delta)/a_2: with a_H and r, all that the scaled answer depends on"
 LOST = "most cells, at any one time, where the wave speeds are complex"
 
@@ -102,6 +110,7 @@ COLUMNS_OF_RUN = {
     "steps": _recorded("steps", "", "number of time steps"),
     "time_at_rest": _recorded("time_at_rest", "s", REST),
     "box_half_width": _recorded("box_half_width", "m", "half-width of the box at the end"),
+    "wave_free_until": _recorded("wave_free_until", "s", naming.SCALARS["wave_free_until"].long_name),
     **{f"L_f_{label}": _length(label, n) for label, n in FRONT_LABELS.items()},
     **{f"L_f_{label}_over_R": _length_over_radius(label, n) for label, n in FRONT_LABELS.items()},
     "max_abs_eta_peak": _peak("max_abs_eta", WATCHED),
@@ -112,6 +121,7 @@ COLUMNS_OF_RUN = {
     "max_abs_eta_outside_peak_time": _peak_time("max_abs_eta_outside"),
     "sediment_volume_error": _volume_error("sediment_volume", KEPT),
     "water_volume_error": _volume_error("water_volume", "the same for water"),
+    "energy_rise": Column("", RISE, lambda run, record: energy_rise(run, record)),
     "nonhyperbolic_cells_max": Column(
         "", LOST, lambda run, record: int(np.nan_to_num(record["nonhyperbolic_cells"]).max())
     ),
@@ -129,7 +139,7 @@ COLUMNS = {
 }
 MEASURED = (
     *("model", "dx", "status", "status_detail", "steps", "time_at_rest", "box_half_width", "L_f", "time"),
-    *("max_abs_eta", "max_abs_eta_outside", "sediment_volume", "water_volume"),
+    *("wave_free_until", "energy", "max_abs_eta", "max_abs_eta_outside", "sediment_volume", "water_volume"),
     *("nonhyperbolic_cells", "hyperbolic_margin"),
 )
 """Variables of records that the table follows from."""
@@ -158,6 +168,13 @@ def samples_inside(run: "StudyRun", record: dict) -> int:
     radius = run.point.radius
     cells = (min(PAPER_BOX * radius, float(record["box_half_width"])) - radius) / float(record["dx"])
     return max(1, int(cells / run.point.order) - 1)
+
+
+def energy_rise(run: "StudyRun", record: dict) -> float:
+    """Return the largest rise of a run's energy over what can be released, while none passes an open edge."""
+    inside = ~(record["time"] > record["wave_free_until"])
+    series = (record[name][inside] for name in ("energy", "water_volume", "sediment_volume"))
+    return energy.rise(run.point, record["model"], float(record["box_half_width"]), *series)
 
 
 def peak(values: np.ndarray, time: np.ndarray) -> tuple[float, float]:
