@@ -13,6 +13,8 @@ import resource
 import shutil
 import signal
 import stat
+import subprocess
+import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -113,38 +115,66 @@ def inside(folder: Path) -> Iterator[None]:
         os.chdir(before)
 
 
-def call(one: Input, captured: Callable) -> tuple[Ended, Path]:
-    """Call `main` in this process on an input, in a new folder; `captured` gives what file descriptors got."""
+Call = Callable[[list[str], Path], tuple[int | str, str, str]]
+"""Function that calls the command line with words in a folder: its status or what went wrong, stdout and stderr."""
+
+
+def in_process(captured: Callable) -> Call:
+    """Return a function that calls `main` here; `captured` gives what file descriptors got."""
     from subslide.__main__ import main
 
-    folder = Path(tempfile.mkdtemp(prefix="fuzz-"))
+    def call(words: list[str], folder: Path) -> tuple[int | str, str, str]:
+        captured()
+        with inside(folder):
+            try:
+                with within(SECONDS):
+                    status: int | str = main(list(words))
+            except BaseException as error:  # whatever comes out of main is wrong
+                status = f"{type(error).__name__}: {error}"
+        return (status, *captured())
+
+    return call
+
+
+def as_command(words: list[str], folder: Path) -> tuple[int | str, str, str]:
+    """Call the command line as a process of its own."""
+    command = [sys.executable, "-m", "subslide", *words]
+    limit = (2 * MORE_BYTES, 2 * MORE_BYTES)
+    try:
+        done = subprocess.run(
+            command,
+            cwd=folder,
+            capture_output=True,
+            timeout=SECONDS,
+            stdin=subprocess.DEVNULL,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, limit),
+        )
+    except subprocess.TimeoutExpired as late:
+        return f"TooLong: {late}", "", ""
+    return done.returncode, done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace")
+
+
+def ended(one: Input, call: Call, folder: Path) -> Ended:
+    """Call the command line with an input in a folder, and return what came of it."""
     one.fill(folder)
     before = snapshot(folder)
-    captured()
-    status: int | str
-    with inside(folder):
-        try:
-            with within(SECONDS):
-                status = main(list(one.words))
-        except BaseException as error:  # whatever comes out of main is wrong
-            status = f"{type(error).__name__}: {error}"
-    out, err = captured()
-    return Ended(status, err.splitlines(), out, changes(before, snapshot(folder))), folder
+    status, out, err = call(one.words, folder)
+    return Ended(status, err.splitlines(), out, changes(before, snapshot(folder)))
 
 
-def faults(one: Input, ended: Ended, folder: Path) -> list[str]:
+def faults(one: Input, done: Ended, folder: Path) -> list[str]:
     """What is wrong with how an input ended, in words; nothing if all is right."""
     wrong = []
-    text = "\n".join([ended.printed, *ended.lines])
+    text = "\n".join([done.printed, *done.lines])
     if "Traceback" in text:
         wrong.append("traceback")
-    if not isinstance(ended.status, int):
-        wrong.append(f"raised {str(ended.status).split(':')[0]}")
-    elif ended.status not in STATUSES[one.ends]:
-        wrong.append(f"exit {ended.status}")
-    lines = [line for line in ended.lines if not line.startswith(ASIDE)]
-    if ended.status == 0 or not isinstance(ended.status, int):
-        wrong += ["speaks on stderr"] if lines and ended.status == 0 else []
+    if not isinstance(done.status, int):
+        wrong.append(f"raised {str(done.status).split(':')[0]}")
+    elif done.status not in STATUSES[one.ends]:
+        wrong.append(f"exit {done.status}")
+    lines = [line for line in done.lines if not line.startswith(ASIDE)]
+    if done.status == 0 or not isinstance(done.status, int):
+        wrong += ["speaks on stderr"] if lines and done.status == 0 else []
     elif len(lines) != 1 or not SAID.fullmatch(lines[0]):
         wrong.append(f"{len(lines)} lines" if len(lines) != 1 else "no line of subslide's")
     else:
@@ -152,14 +182,14 @@ def faults(one: Input, ended: Ended, folder: Path) -> list[str]:
         wrong += ["longer than 300"] if len(line) > LONGEST else []
         wrong += ["unprintable"] if not line.isprintable() else []
         wrong += [] if any(name in line for name in one.names) or not one.names else ["names nothing"]
-    allowed = one.makes if ended.status == 0 else ()
-    stray = {name: how for name, how in ended.changed.items() if not name.startswith(allowed or ("\0",))}
+    allowed = one.makes if done.status == 0 else ()
+    stray = {name: how for name, how in done.changed.items() if not name.startswith(allowed or ("\0",))}
     if stray:
         wrong.append(
             "leaves "
             + ", ".join(sorted({f"{how} {Path(name).suffix or name}" for name, how in stray.items()}))
         )
-    if ended.status == 0:
+    if done.status == 0:
         for name, content in one.equal.items():
             path = folder / name
             wrong += [] if path.is_file() and path.read_bytes() == content else [f"wrong {Path(name).name}"]
@@ -169,26 +199,27 @@ def faults(one: Input, ended: Ended, folder: Path) -> list[str]:
 def report(failed: list[tuple[Input, Ended, list[str]]], seed: str, of: int) -> str:
     """Failures by kind, each with the shortest input that shows it."""
     groups: dict[str, list] = {}
-    for one, ended, wrong in failed:
-        groups.setdefault(f"{one.ends}: {'; '.join(wrong)}", []).append((one, ended))
+    for one, done, wrong in failed:
+        groups.setdefault(f"{one.ends}: {'; '.join(wrong)}", []).append((one, done))
     text = [f"{len(failed)} of {of} inputs ended wrong (SUBSLIDE_FUZZ_SEED={seed})"]
     for wrong, members in sorted(groups.items(), key=lambda group: -len(group[1])):
         text.append(f"\n{len(members)} x {wrong}")
-        for one, ended in sorted(members, key=lambda member: len(member[0].name))[:3]:
-            said = (ended.lines or [""])[-1]
-            status = ended.status if isinstance(ended.status, int) else ended.status[:150]
+        for one, done in sorted(members, key=lambda member: len(member[0].name))[:3]:
+            said = (done.lines or [""])[-1]
+            status = done.status if isinstance(done.status, int) else done.status[:150]
             text.append(f"   {one.name[:120]!r}: {' '.join(one.words)[:120]!r} -> {status}: {said[:200]!r}")
     return "\n".join(text)
 
 
-def run_all(inputs: list[Input], captured: Callable, seed: str) -> None:
+def run_all(inputs: list[Input], call: Call, seed: str) -> None:
     """Call every input and fail with a report if any ended wrong."""
     failed = []
     for one in inputs:
-        ended, folder = call(one, captured)
-        wrong = faults(one, ended, folder)
+        folder = Path(tempfile.mkdtemp(prefix="fuzz-"))
+        done = ended(one, call, folder)
+        wrong = faults(one, done, folder)
         if wrong:
-            failed.append((one, ended, wrong))
+            failed.append((one, done, wrong))
         shutil.rmtree(folder, ignore_errors=True)
     assert not failed, report(failed, seed, len(inputs))
 

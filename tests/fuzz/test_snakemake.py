@@ -1,0 +1,119 @@
+"""Bare Snakemake on bad studies, and its commands that only look: one line of ours, and nothing is written."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from fuzz_calling import LONGEST, changes, rng_of, snapshot
+from fuzz_studies import STUDY, flips
+
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("fuzz")]
+
+SECONDS = 60
+PREFIX = "configuration: "
+"""What our line begins with inside Snakemake's frame."""
+
+PLAIN = "study: t\nfigures: none\nmodel: radial\ncells: 20\nt_end: 0.05\n"
+REFUSED = {
+    "a key that there is not": (PLAIN + "detla: 3\n", "detla"),
+    "a key given twice": (PLAIN + "cells: 40\n", "cells"),
+    "octal": (PLAIN.replace("20", "0200"), "cells"),
+    "base 60": (PLAIN + "delta: 1:20\n", "delta"),
+    "not a number": (PLAIN + "r: .nan\n", "r"),
+    "empty": ("", "t.yaml"),
+    "a list": ("- study: t\n", "t.yaml"),
+    "not YAML": (PLAIN + "r: [0\n", "t.yaml"),
+    "a tag": (PLAIN + "r: !!python/object/apply:os.system ['touch marker']\n", "t.yaml"),
+    "a long name": (PLAIN.replace("study: t", f"study: {'t' * 300}"), "study"),
+    "millions of points": (f"{PLAIN}r: {[n / 5000 for n in range(4000)]}\ndelta: {[n / 50 for n in range(2500)]}\n", "points"),
+    "578 days": (PLAIN.replace("0.05", "1e9"), "t_end"),
+    "an escape": (PLAIN + '"a\\e[31mb": 1\n', "a\\x1b[31mb"),
+}  # fmt: skip
+"""Configurations that are refused, and what the line names."""
+
+LOOKS = ("-n", "--list-rules", "--dag", "--summary", "--lint", "--report")
+"""Commands that only look; the last has nothing to report on."""
+
+
+class Project:
+    """A copy of the workflow in a folder, with a configuration and what is in its results."""
+
+    def __init__(self, folder: Path):
+        """Copy the workflow."""
+        root = Path(__file__).resolve().parents[2]
+        for name in ("Snakefile", "workflow", "profiles", "config"):
+            copy = shutil.copytree if (root / name).is_dir() else shutil.copy
+            copy(root / name, folder / name)
+        self.folder = folder
+
+    def look(self) -> dict:
+        """What is in the folder, but for what Snakemake keeps for itself and compiled code."""
+        seen = snapshot(self.folder)
+        return {
+            name: value
+            for name, value in seen.items()
+            if not name.startswith(".snakemake") and "__pycache__" not in name
+        }
+
+    def snakemake(self, *arguments: str) -> tuple[int, str, dict[str, str]]:
+        """Exit status of a bare Snakemake, what it printed, and what changed."""
+        before = self.look()
+        command = [sys.executable, "-m", "snakemake", "--configfile", "t.yaml", "--cores", "1", *arguments]
+        done = subprocess.run(
+            command,
+            cwd=self.folder,
+            capture_output=True,
+            text=True,
+            timeout=SECONDS,
+            stdin=subprocess.DEVNULL,
+        )
+        return done.returncode, done.stdout + done.stderr, changes(before, self.look())
+
+
+@pytest.fixture
+def project(tmp_path):
+    """A project of its own."""
+    return Project(tmp_path)
+
+
+def said(text: str) -> list[str]:
+    """Our lines in what Snakemake printed."""
+    return [line for line in text.splitlines() if PREFIX in line]
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_a_bad_configuration_is_one_line_in_snakemakes_frame(name, project):
+    text, names = REFUSED[name]
+    (project.folder / "t.yaml").write_text(text)
+    status, printed, changed = project.snakemake()
+    assert status != 0
+    assert "Traceback" not in printed
+    assert changed == {}
+    (line,) = said(printed)
+    assert len(line) <= LONGEST + len(PREFIX)
+    assert line.isprintable()
+    assert names in line
+
+
+def test_a_pipe_as_configuration_is_refused(project):
+    os.mkfifo(project.folder / "t.yaml")
+    status, printed, changed = project.snakemake()
+    assert status != 0
+    assert "Traceback" not in printed
+    assert "t.yaml" in printed
+    assert changed == {}
+
+
+@pytest.mark.parametrize("look", LOOKS)
+def test_commands_that_look_write_nothing_though_records_are_damaged(look, project, finished, seed):
+    (project.folder / "t.yaml").write_text(STUDY)
+    shutil.copytree(finished, project.folder / "results/t")
+    record = sorted((project.folder / "results/t/records").glob("*.nc"))[0]
+    record.write_bytes(flips(rng_of(seed, look), 20)(record.read_bytes()))
+    (project.folder / "results/t/batches/0001-old.json").write_text("{")
+    _, printed, changed = project.snakemake(look)
+    assert "Traceback" not in printed
+    assert changed == {}
