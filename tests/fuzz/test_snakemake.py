@@ -17,6 +17,7 @@ PREFIX = "configuration: "
 """What our line begins with inside Snakemake's frame."""
 
 PLAIN = "study: t\nfigures: none\nmodel: radial\ncells: 20\nt_end: 0.05\n"
+MANY = [n / 5000 for n in range(5000)]
 REFUSED = {
     "a key that there is not": (PLAIN + "detla: 3\n", "detla"),
     "a key given twice": (PLAIN + "cells: 40\n", "cells"),
@@ -28,7 +29,7 @@ REFUSED = {
     "not YAML": (PLAIN + "r: [0\n", "t.yaml"),
     "a tag": (PLAIN + "r: !!python/object/apply:os.system ['touch marker']\n", "t.yaml"),
     "a long name": (PLAIN.replace("study: t", f"study: {'t' * 300}"), "study"),
-    "millions of points": (f"{PLAIN}r: {[n / 5000 for n in range(4000)]}\ndelta: {[n / 50 for n in range(2500)]}\n", "points"),
+    "millions of points": (f"{PLAIN}r: {MANY[:4000]}\ndelta: {MANY[::2]}\n", "points"),
     "578 days": (PLAIN.replace("0.05", "1e9"), "t_end"),
     "an escape": (PLAIN + '"a\\e[31mb": 1\n', "a\\x1b[31mb"),
 }  # fmt: skip
