@@ -13,11 +13,13 @@ export CONFIG CORES
 .PHONY: paper study test setup docs clean help
 
 paper: $(READY)  ## set up, then the paper's study to figures and report
+	@$(BIN)/subslide unlock config/paper.yaml
 	@$(BIN)/snakemake --configfile config/paper.yaml --cores "$$CORES"
 	@echo "The paper's study is up to date: results/paper/report.html"
 
 study: $(READY)  ## check a study and run it: make study CONFIG=config/mine.yaml CORES=2
 	@$(BIN)/subslide check "$$CONFIG"
+	@$(BIN)/subslide unlock "$$CONFIG"
 	@$(BIN)/snakemake --configfile "$$CONFIG" --cores "$$CORES"
 	@echo "The study in $$CONFIG is up to date: its tables, figures and report.html are in results/, under its name"
 
@@ -50,11 +52,13 @@ bench-peers: $(READY)  ## run GeoClaw and PyClaw beside subslide (builds them on
 
 .PHONY: verify
 verify: $(READY)  ## exact solutions, and error against seconds of all numerics; hold the required orders (15 minutes on 2 cores)
+	@$(BIN)/subslide unlock config/accuracy.yaml
 	@$(BIN)/snakemake --configfile config/accuracy.yaml --cores "$$CORES"
 	@$(BIN)/subslide verify results/accuracy
 
 .PHONY: atlas
 atlas: $(READY)  ## where methods fail: thousands of runs, maps of errors and statuses, largest stable Courant numbers
+	@$(BIN)/subslide unlock config/stability.yaml
 	@$(BIN)/snakemake --configfile config/stability.yaml --cores "$$CORES"
 	@cat results/stability/logs/table-atlas.log
 

@@ -1,29 +1,49 @@
-# Validates the configuration, plans the study, includes the rules and names the targets.
+# Reads the configuration, plans the study, includes the rules and names the targets.
+import os
+import sys
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from subslide import catalogue, source_hash, tables
+from subslide import catalogue, checksums, source_hash, tables
 from subslide.keys.schema import ConfigError
-from subslide.study import batches
+from subslide.keys.words import printable
+from subslide.study import asked, locks, plan, staging
 from subslide.study.config import make_study
+from subslide.tables._write import remove as remove_table
 
 
 report: "workflow/report/workflow.rst"
 
 
-if not workflow.overwrite_configfiles:  # never merged with a file that the user gives
+BASE = Path(os.path.relpath(str(workflow.current_basedir)))  # a study may be moved with its workflow
 
-    configfile: "config/paper.yaml"
+ARGUMENTS = workflow.config_settings.config_args
 
-
+# The file is read by our own strict reader: Snakemake's takes the last of two equal keys, and 0200 for 128.
 try:
-    STUDY = make_study(config)
+    if workflow.modifier.skip_configfile:  # imported as a module, which has its configuration from there
+        STUDY = make_study(config)
+    else:
+        STUDY = make_study(
+            asked.values(workflow.overwrite_configfiles, ARGUMENTS, BASE / "config/paper.yaml")
+        )
 except ConfigError as error:
-    raise WorkflowError(f"configuration: {error}") from None
+    raise WorkflowError(f"configuration: {printable(str(error))}") from None
 
 RESULTS = Path("results", STUDY.name)
-PLAN = batches.plan(STUDY, RESULTS, extend=workflow.is_main_process)
+HOME = Path(".snakemake/subslide", STUDY.name)
+
+# A job that Snakemake starts elsewhere reads this file too, and must have the plan that it was started with.
+if workflow.is_main_process:
+    PLAN = plan.plan(STUDY, RESULTS)
+    STAGED = staging.stage(PLAN, HOME)
+    locks.hold(HOME)
+    workflow.config_settings.config_args = [*ARGUMENTS, f"{asked.KEY}={STAGED.key}"]
+    for line in PLAN.faults:
+        print(line, file=sys.stderr)
+else:
+    STAGED = staging.staged(HOME, asked.plan_key(ARGUMENTS))
 
 
 include: "workflow/rules/solve.smk"
@@ -36,7 +56,14 @@ rule all:
     default_target: True
     input:
         rules.report.output,
-        ALL_TABLES,
+        SEALED_TABLES,
         RECORDS,
-        CHECKSUMS,
+        rules.points.output,
         FIGURES,
+
+
+onstart:
+    staging.tidy(RESULTS, STAGED)
+    # tables that the study had before, and has no more, would be read as if they were its own
+    for name in set(catalogue.names("tables")) - set(TABLES):
+        remove_table(name, RESULTS)

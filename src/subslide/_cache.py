@@ -10,6 +10,7 @@ import shutil
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 from subslide._sources import source_hash
@@ -22,14 +23,15 @@ DAY = 86400.0
 def set_cache_folder() -> Path | None:
     """Set NUMBA_CACHE_DIR to a folder, made if need be, and return it; None if none can be written."""
     for root in _roots():
-        folder = root / (PREFIX + source_hash("solver"))
         try:
+            folder = root.absolute() / (PREFIX + source_hash("solver"))
             if not folder.is_dir():
                 folder.mkdir(parents=True, exist_ok=True)
                 _prune(root, keep=folder)
-        except OSError:
+            usable = folder.is_dir() and os.access(folder, os.W_OK | os.X_OK)
+        except (OSError, ValueError):
             continue
-        if os.access(folder, os.W_OK):
+        if usable:
             os.environ["NUMBA_CACHE_DIR"] = str(folder)
             if "numba" in sys.modules:  # it has read the environment, but looks here when a kernel is made
                 sys.modules["numba"].config.CACHE_DIR = str(folder)
@@ -37,24 +39,27 @@ def set_cache_folder() -> Path | None:
     return None
 
 
-def _roots() -> list[Path]:
-    """Return the folders to try, best first: the one the user set, the user's cache, a private temporary one."""
+def _roots() -> Iterator[Path]:
+    """Give the folders to try, best first: the one the user set, the user's cache, a private temporary one."""
     given = os.environ.get("NUMBA_CACHE_DIR")
-    roots = []
     if given:
         # A child process inherits the folder that its parent has set.
         folder = Path(given)
-        roots.append(folder.parent if folder.name.startswith(PREFIX) else folder)
+        yield folder.parent if folder.name.startswith(PREFIX) else folder
     home = os.environ.get("XDG_CACHE_HOME")
     with contextlib.suppress(RuntimeError):
-        roots.append((Path(home) if home else Path.home() / ".cache") / "subslide")
-    roots.append(Path(tempfile.gettempdir()) / f"subslide-cache-{os.getuid()}")
-    return roots
+        yield (Path(home) if home else Path.home() / ".cache") / "subslide"
+    with contextlib.suppress(OSError):
+        private = Path(tempfile.gettempdir()) / f"subslide-cache-{os.getuid()}"
+        private.mkdir(mode=0o700, exist_ok=True)
+        if private.lstat().st_uid == os.getuid():  # what lies in another's would be run as code
+            yield private
 
 
 def _prune(root: Path, keep: Path) -> None:
     """Remove all but the newest folders of older sources, sparing those made within a day."""
-    folders = sorted(root.glob(PREFIX + "*"), key=lambda p: p.stat().st_mtime, reverse=True)
-    for folder in folders[KEPT:]:
-        if folder != keep and time.time() - folder.stat().st_mtime > DAY:
-            shutil.rmtree(folder, ignore_errors=True)
+    with contextlib.suppress(OSError):  # another process may remove them as well
+        folders = sorted(root.glob(PREFIX + "*"), key=lambda p: p.stat().st_mtime, reverse=True)
+        for folder in folders[KEPT:]:
+            if folder != keep and time.time() - folder.stat().st_mtime > DAY:
+                shutil.rmtree(folder, ignore_errors=True)

@@ -27,9 +27,10 @@ def source_hash(part: str = "record", name: str = "") -> str:
     ----------
     part
         `solver`: compiled code. `record`: records. `table`: the table called `name`, so of the tables only what it
-        imports. `figure`: the figure called `name`, so all but the other figures and what describes or calls.
+        imports. `figure`: the one called `name`, so all but the others and what describes or calls. `page`: that one
+        alone.
     name
-        Name of the table or figure.
+        Name of the table, figure or page.
 
     Returns
     -------
@@ -92,8 +93,8 @@ def _belongs(source: Path, part: str, name: str) -> bool:
     room = source.parts[0]
     if part == "solver":
         return room in COMPILED or source.as_posix() in COMPILED
-    if room in SHOWING:
-        return part == "figure" and room == "figures" and (source.stem.startswith("_") or source.stem == name)
+    if room in SHOWING or part == "page":
+        return room == f"{part}s" and (source.stem.startswith("_") or source.stem == name)
     if part == "record":
         return room not in JUDGING
     if part == "table" and room == "tables":

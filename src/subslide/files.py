@@ -1,17 +1,36 @@
-"""Files that are either whole or not there, and the hashes of their bytes."""
+"""Files that are either whole or not there, also after a signal, and the hashes of their bytes."""
 
 import contextlib
 import hashlib
-import json
 import os
 import uuid
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 
 class RecordError(Exception):
     """A file that is not a whole record: missing, cut short, damaged, or something else."""
+
+
+class Stopped(BaseException):
+    """A signal that ends the process, raised in its main thread: SIGTERM or SIGHUP; Ctrl-C is a KeyboardInterrupt.
+
+    Attributes
+    ----------
+    signal
+        Number of the signal.
+    said
+        The line to end with.
+    """
+
+    def __init__(self, signal: int, said: str = "interrupted; nothing was written"):
+        """Keep the signal, and what to say."""
+        super().__init__(said)
+        self.signal, self.said = signal, said
+
+
+unfinished: set[Path] = set()
+"""Temporary files that are being written."""
 
 
 @contextlib.contextmanager
@@ -23,6 +42,7 @@ def replacing(path: Path | str) -> Iterator[Path]:
     """
     path = Path(os.path.realpath(path))
     temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex[:8]}.tmp")
+    unfinished.add(temporary)
     try:
         yield temporary
         _sync(temporary)
@@ -30,6 +50,7 @@ def replacing(path: Path | str) -> Iterator[Path]:
         _sync(path.parent)
     finally:
         temporary.unlink(missing_ok=True)
+        unfinished.discard(temporary)
 
 
 def write_text(path: Path | str, text: str) -> None:
@@ -44,23 +65,6 @@ def write_text(path: Path | str, text: str) -> None:
     """
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
-
-
-def write_json(path: Path | str, value: Any) -> None:
-    """Write a value as JSON to a file, whole or not at all; a file that holds it already is not touched.
-
-    Parameters
-    ----------
-    path
-        The file; its folder is there.
-    value
-        What JSON can hold, without NaN.
-    """
-    text = json.dumps(value, indent=1, allow_nan=False) + "\n"
-    with contextlib.suppress(OSError, UnicodeDecodeError):
-        if Path(path).read_text(encoding="utf-8") == text:
-            return
-    write_text(path, text)
 
 
 def file_hash(path: Path | str) -> str:

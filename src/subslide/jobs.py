@@ -3,18 +3,22 @@
 Only numpy, numba and netCDF4 are imported here, and late: start-up is most of a radial run's time.
 """
 
+import functools
+import itertools
 import os
+import signal
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from subslide.files import file_hash, write_text
-from subslide.keys import schema
+from subslide import checksums, source_hash
+from subslide.files import Stopped, write_text
+from subslide.keys import plain, schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
 from subslide.study import config, scene_options
-from subslide.study.batches import read_batch
+from subslide.study.batches import read_batch, spec_text
 from subslide.study.yaml_files import read_yaml
 
 if TYPE_CHECKING:
@@ -44,12 +48,18 @@ def point_of(path: str | None, options: dict[str, str]) -> Point:
     values = read_yaml(path) if path else {}
     names = {key: f"{path}: {key}" for key in values}
     for key, text in options.items():
-        mapping = key == "scene_options"
-        values[key] = scene_options.of_text(text, _value_of_text) if mapping else _value_of_text(text)
         names[key] = "--" + key.replace("_", "-")
+        if key == "scene_options" and isinstance(text, str):
+            values[key] = scene_options.of_text(text, functools.partial(_value_of_text, name=names[key]))
+        else:
+            values[key] = _value_of_text(text, names[key])
     if isinstance(values.get("snapshot_times"), int | float):
         values["snapshot_times"] = [values["snapshot_times"]]
-    return config.make_point(values, names)
+    point = config.make_point(values, names)
+    if values.get("bands"):
+        note = f"subslide: {path}: bands: true has no meaning for one run and is left out"
+        print(words.printable(note), file=sys.stderr)
+    return point
 
 
 OTHER_FORMATS = frozenset({
@@ -75,6 +85,8 @@ def check_output(path: str, inputs: list[str]) -> None:
         If the path is a folder, an input, or no regular file, names another format, or lies in a folder that is missing
         or cannot be written to.
     """
+    if plain.control(path):
+        raise ConfigError(f"--output: {path} has a control character; allowed: the path of a file")
     target = Path(os.path.realpath(path))
     folder = target.parent
     if target.is_dir():
@@ -120,7 +132,7 @@ def run(point: Point, threads: int, output: str) -> str:
     """
     from subslide.records import netcdf as records
 
-    result = solved(point, threads, _progress() if sys.stderr.isatty() else None)
+    result = solved(point, threads, _progress(point) if sys.stderr.isatty() else None)
     records.write(output, [result])
     return f"{summary(result)} -> {output}"
 
@@ -133,8 +145,8 @@ def solved(point: Point, threads: int, progress: Callable[[float], object] | Non
     return thinning.thinned(solver.solve(point, threads=threads, progress=progress))
 
 
-def batch(spec: str, threads: int, output: str) -> Iterator[str]:
-    """Solve the points of a batch file into one record.
+def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callable[[str], object]) -> None:
+    """Solve the points of a batch file into one record, with its checksum beside it.
 
     Parameters
     ----------
@@ -143,29 +155,58 @@ def batch(spec: str, threads: int, output: str) -> Iterator[str]:
     threads
         Cores for each run.
     output
-        Path of the record; its SHA-256 goes to `output`.sha256.
-
-    Yields
-    ------
-    str
-        A line as each run ends, and one on the record once it is written.
+        Path of the record.
+    ledger
+        Path of the file of the study's ledger that states the batch, written once its record is whole. With it, points
+        that are solved when the job is stopped, or fails, are kept as a batch of their own.
+    say
+        Function that is called with a line as each run ends, and with one on the record.
 
     Raises
     ------
     ConfigError
         If the file is no batch file, see `study.batches.read_batch`.
     """
-    from subslide.records import netcdf as records
+    from subslide.study.locks import at_work
 
     points = read_batch(spec)
-    results = []
-    for point in points:
-        results.append(solved(point, threads))
-        yield summary(results[-1])
-    Path(output + ".sha256").unlink(missing_ok=True)
+    results: list[Run] = []
+    with at_work(Path(os.path.realpath(output)).parent):
+        try:
+            for point in points:
+                results.append(solved(point, threads))
+                say(summary(results[-1]))
+            keep_batch(results, output, ledger)
+        except BaseException as error:
+            if not (ledger and results):
+                raise
+            part = unused_part(ledger)
+            keep_batch(results, str(Path(output).with_name(f"{part.stem}.nc")), str(part))
+            said = f"stopped: the {len(results)} runs that were solved are kept as batch {part.stem}"
+            if isinstance(error, KeyboardInterrupt | Stopped):
+                raise Stopped(getattr(error, "signal", signal.SIGINT), said) from None
+            say(said)
+            raise
+    say(f"{len(results)} runs -> {output}")
+
+
+def keep_batch(results: list["Run"], output: str, ledger: str | None) -> None:
+    """Write the record of runs, its checksum and, if it is given, the ledger's file, each whole or not at all."""
+    from subslide.records import netcdf as records
+
+    text = spec_text(result.point for result in results)
+    checksums.beside(output).unlink(missing_ok=True)
     records.write(output, results)
-    write_text(output + ".sha256", f"{file_hash(output)}  {Path(output).name}\n")
-    yield f"{len(results)} runs -> {output}"
+    checksums.seal(output, batch=checksums.text_hash(text), sources=source_hash())
+    if ledger:
+        write_text(ledger, text)
+
+
+def unused_part(ledger: str) -> Path:
+    """Return the path, beside a batch's file of the ledger, of the first part of it that is not there."""
+    path = Path(ledger)
+    parts = (path.with_name(f"{path.stem}p{n}.json") for n in itertools.count(1))
+    return next(part for part in parts if not part.exists())
 
 
 def warm(kernels: tuple[str, ...]) -> Iterator[str]:
@@ -215,31 +256,37 @@ def summary(result: "Run") -> str:
     return ", ".join(parts)
 
 
-def _value_of_text(text: Any) -> Any:
-    """Return the number, list of numbers or text that the text of an option stands for."""
+def _value_of_text(text: Any, name: str) -> Any:
+    """Return what the text of an option stands for: as in a file, or a list of such values parted by commas."""
     if not isinstance(text, str):
         return text
-    if "," in text:
-        return [_value_of_text(part.strip()) for part in text.split(",")]
-    for kind in (int, float):
+    if plain.control(text):
+        raise ConfigError(f"{name}: {words.show(text)} has a control character; allowed: text in one line")
+    values = []
+    for part in map(str.strip, text.split(",")):
+        if not part and "," in text:
+            raise ConfigError(f"{name}: {words.show(text)} has an empty part; allowed: values between commas")
         try:
-            return kind(text)
-        except ValueError:
-            continue
-    return text
+            values.append(plain.value_of(part))
+        except ValueError as error:
+            raise ConfigError(f"{name}: {words.cut(part)} {error}") from None
+    return values if "," in text else values[0]
 
 
-def _progress() -> Callable[[float], None]:
-    """Return a function that shows the fraction done on the terminal, once a run has taken a while."""
+def _progress(point: Point) -> Callable[[float], None]:
+    """Return a function that shows on the terminal the time that a run has reached, once it has taken a while."""
     import time
 
     start = last = time.monotonic()
+    aim = "until rest" if point.t_end is None else f"of {point.t_end:.4g} s"
 
-    def show(fraction: float) -> None:
+    def show(reached: float) -> None:
         nonlocal last
         now = time.monotonic()
         if now - start > 2 and now - last > 0.5:
             last = now
-            print(f"\r{fraction:4.0%} ", end="\r", file=sys.stderr, flush=True)
+            print(
+                f"\r{reached:.4g} s {aim}, after {now - start:.0f} s  ", end="\r", file=sys.stderr, flush=True
+            )
 
     return show

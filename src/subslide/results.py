@@ -10,13 +10,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, overload
 
 import numpy as np
 
-from subslide import catalogue
+from subslide import catalogue, checksums
+from subslide.files import RecordError
 from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS, Point, from_dict
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+
+AGAIN = "make the study again"
+"""What mends a file of a study."""
 
 MOST_BYTES = 250e6
 """Size of the records from which on a study is read in more than one go."""
@@ -61,25 +65,36 @@ class Results:
     def runs_of_study(self) -> tuple[StudyRun, ...]:
         """Return the runs in the order of the tables; ConfigError if the folder is none of a study."""
         return tuple(
-            StudyRun(row["id"], row["numerics"], _point(row), row["batch"]) for row in self._index["points"]
+            StudyRun(row["id"], row["numerics"], row["point"], row["batch"]) for row in self._index["points"]
         )
 
     @functools.cached_property
     def companions(self) -> tuple[Companion, ...]:
         """Return the coarser runs of a study with bands; none without."""
         rows = self._index.get("companions", ())
-        return tuple(Companion(row["id"], row["of"], row["role"], _point(row), row["batch"]) for row in rows)
+        return tuple(Companion(row["id"], row["of"], row["role"], row["point"], row["batch"]) for row in rows)
 
     @functools.cached_property
-    def _index(self) -> dict:
-        """Return what points.json holds."""
+    def _index(self) -> dict[str, Any]:
+        """Return what points.json holds, its rows with their points."""
         path = self.folder / "points.json"
+        if not path.is_file():
+            raise ConfigError(f"{path}: there is no such file; allowed: the folder of a study that was run")
         try:
-            return json.loads(path.read_text(encoding="utf-8"))
-        except FileNotFoundError:
-            raise ConfigError(
-                f"{path}: there is no such file; allowed: the folder of a study that was run"
-            ) from None
+            index = json.loads(path.read_text(encoding="utf-8"))
+            rows = {
+                key: [_row(row) for row in index[key]] for key in ("points", "companions") if key in index
+            }
+            if not rows["points"]:
+                raise ValueError("there are no points")
+            if checksums.beside(path).exists():
+                checksums.verify(path)
+        except RecordError as error:
+            raise RecordError(f"{error}; {AGAIN}") from None
+        except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+            fault = " ".join(str(error).split()) or type(error).__name__
+            raise RecordError(f"{path} is damaged or not of this version ({fault}); {AGAIN}") from None
+        return rows
 
     @overload
     def each(self, *names: str, among: None = None) -> Iterator[tuple[StudyRun, dict[str, Any]]]: ...
@@ -124,6 +139,7 @@ class Results:
             held: dict[str, dict[str, Any]] = {}
             for batch in dict.fromkeys(run.batch for run in part):
                 ids = {run.id for run in part if run.batch == batch}
+                self._verify(paths[batch])
                 held |= by_run.read(paths[batch], ids, names)
             yield from ((run, held[run.id]) for run in part)
 
@@ -146,12 +162,20 @@ class Results:
         from subslide.records import netcdf
 
         path = self._record_path(batch)
+        self._verify(path)
         netcdf.read(path)
         return open_record(path)
 
     def _record_path(self, batch: str) -> Path:
         """Return the path of the record of a batch."""
         return self.folder / "records" / f"{batch}.nc"
+
+    def _verify(self, path: Path) -> None:
+        """Raise a RecordError unless a file of the study is as it was written; it is not opened before."""
+        try:
+            checksums.verify(path)
+        except RecordError as error:
+            raise RecordError(f"{error}; {AGAIN}") from None
 
     def table(self, name: str) -> "pd.DataFrame":
         """Return a table of the study by its name, as it was last written.
@@ -160,6 +184,8 @@ class Results:
         ------
         ConfigError
             If the study's folder has no such table.
+        RecordError
+            If the table is not as it was written.
         """
         import pandas as pd
 
@@ -178,6 +204,7 @@ class Results:
         paths = [self.folder / "tables" / f"{name}.{kind}" for kind in ("parquet", "csv")]
         for path in paths:
             if path.is_file():
+                self._verify(path)
                 return path
         raise ConfigError(
             f"{paths[-1]}: there is no such file; allowed: the folder of a study with this table"
@@ -267,9 +294,12 @@ def trimmed(data: "xr.Dataset", name: str) -> "xr.Dataset":
     return one
 
 
-def _point(row: dict) -> Point:
-    """Return the point of a row of points.json."""
-    return from_dict({key: row[key] for key in RUN_KEYS})
+def _row(row: dict) -> dict[str, Any]:
+    """Return a row of points.json with its point; ValueError if the values are not those of its id."""
+    point = from_dict({key: row[key] for key in RUN_KEYS})
+    if point.id != row["id"]:
+        raise ValueError(f"the values of {row['id']} belong to {point.id}")
+    return {**row, "point": point}
 
 
 def _empty(name: str) -> "pd.DataFrame":

@@ -12,7 +12,7 @@ import subslide
 
 PACKAGE = Path(subslide.__file__).parent
 ROOMS = (
-    ("the bottom", ("_sources", "_cache", "catalogue", "files", "naming")),
+    ("the bottom", ("_sources", "_cache", "catalogue", "files", "checksums", "naming")),
     ("what may be asked", ("keys",)),
     ("one run's values", ("points",)),
     ("initial states", ("scenes",)),
@@ -34,7 +34,7 @@ ROOMS = (
 FLOOR = {name: floor for floor, (_, names) in enumerate(ROOMS) for name in names}
 NARROW = {
     "__init__": {"_sources", "_cache"},
-    "kernels": {"kernels", "naming", "keys.names"},
+    "kernels": {"kernels", "naming", "keys.names", "_sources"},
     "scenes": {"scenes", "keys", "points", "catalogue"},
 }
 """Modules that import less than those below them: all that they may."""

@@ -7,8 +7,12 @@ import numpy as np
 import pytest
 
 from subslide import naming
+from subslide.checksums import seal
+from subslide.files import write_text
+from subslide.jobs import keep_batch
 from subslide.points import Point
 from subslide.results import Results
+from subslide.study import plan
 from subslide.tables import _write
 
 
@@ -61,6 +65,27 @@ def made_up_run(point: Point, steps: int = 20, grown: int = 0, **changes) -> Sim
 def make_run():
     """Function that makes up the result of a point."""
     return made_up_run
+
+
+@pytest.fixture
+def solve_study():
+    """Function that leaves a study in a folder as its jobs would; `solve(points)` gives the runs of a batch."""
+
+    def finish(study, folder, solve):
+        planned = plan.plan(study, folder)
+        for name in ("records", "batches"):
+            (folder / name).mkdir(parents=True, exist_ok=True)
+        for name, batch in planned.batches.items():
+            if batch.text:
+                keep_batch(
+                    solve(list(batch.points)),
+                    str(plan.record_path(folder, name)),
+                    str(folder / "batches" / f"{name}.json"),
+                )
+        write_text(folder / "points.json", planned.points_text)
+        seal(folder / "points.json")
+
+    return finish
 
 
 @pytest.fixture

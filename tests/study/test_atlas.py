@@ -6,26 +6,24 @@ import pytest
 from subslide import exact
 from subslide.__main__ import main
 from subslide.pages import renewal
-from subslide.records import netcdf as records
 from subslide.results import Results
-from subslide.study import batches, config
-from subslide.study.batches import read_batch
+from subslide.study import config
 from subslide.tables import atlas
 
 COLUMN = {"model": "radial", "boundary": "wall", "figures": "none"}
 
 
 @pytest.fixture
-def folder(tmp_path, make_run, write_tables):
+def folder(tmp_path, make_run, write_tables, solve_study):
     """Function that makes up a study, each run changed by `change(point)`, and its atlas; returns the table."""
 
     def finish(change, **values):
         study = config.make_study({"study": "t", **COLUMN, **values})
-        for name in batches.plan(study, tmp_path, extend=True).batches:
-            (tmp_path / "records").mkdir(exist_ok=True)
-            points = read_batch(tmp_path / "batches" / f"{name}.json")
-            runs = [make_run(point, **{"energy": falling(point), **change(point)}) for point in points]
-            records.write(tmp_path / "records" / f"{name}.nc", runs)
+
+        def solve(points):
+            return [make_run(point, **{"energy": falling(point), **change(point)}) for point in points]
+
+        solve_study(study, tmp_path, solve)
         write_tables(tmp_path)
         rows = write_tables(tmp_path, "atlas").atlas
         texts = ["status_detail", "reference", "reason"]

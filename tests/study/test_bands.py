@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 
 from subslide.__main__ import main
-from subslide.records import netcdf as records
-from subslide.study import batches, config
-from subslide.study.batches import read_batch
+from subslide.study import config
 from subslide.tables import bands
 from subslide.tables._convergence import CONVERGING, NOT_CONVERGED
 
@@ -17,16 +15,12 @@ FINAL = 0.14
 
 
 @pytest.fixture
-def finish(tmp_path, write_tables):
+def finish(tmp_path, write_tables, solve_study):
     """Function that finishes a study with runs that `make(point)` gives, and returns its results."""
 
     def finish(make, **axes):
         study = config.make_study({"study": "t", "model": "radial", "bands": True, "cells": 160, **axes})
-        plan = batches.plan(study, tmp_path, extend=True)
-        (tmp_path / "records").mkdir(exist_ok=True)
-        for name in plan.batches:
-            points = read_batch(tmp_path / "batches" / f"{name}.json")
-            records.write(tmp_path / "records" / f"{name}.nc", [make(point) for point in points])
+        solve_study(study, tmp_path, lambda points: [make(point) for point in points])
         return write_tables(tmp_path)
 
     return finish

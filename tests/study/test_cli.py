@@ -10,6 +10,7 @@ import netCDF4
 import numpy as np
 import pytest
 
+import subslide
 from subslide.__main__ import main
 from subslide.keys import schema, words
 from subslide.points import RUN_KEYS
@@ -17,7 +18,7 @@ from subslide.records.netcdf import read
 
 QUICK = ("--model", "radial", "--cells", "20", "--t-end", "0.02")
 BAD = {
-    ("--r", "1.5"): ("--r", "1.5", "from 0 to below 1"),
+    ("--r", "1.5"): ("--r", "1.5", "from 0 to 0.99999"),
     ("--a-H", "-1"): ("--a-H", "-1", "from 0 to 1000"),
     ("--a-H", "nan"): ("--a-H", "nan"),
     ("--a-H", "1,2"): ("2 values",),
@@ -28,6 +29,22 @@ BAD = {
     ("--t-end", "rset"): ("--t-end", "rset", "did you mean 'rest'?"),
     ("--deltta", "30"): ("--deltta", "--delta"),
     ("--threads", "0"): ("--threads", "0"),
+    ("--threads", "1_0"): ("--threads", "1_0", "several ways"),
+    ("--threads", "1" * 5000): ("--threads", "1111"),
+    ("--cells", "0200"): ("--cells: 0200", "several ways"),
+    ("--cells", "1e400"): ("--cells: 1e400", "about 1e308"),
+    ("--cells", "1" * 5000): ("--cells: 1111", "about 1e308"),
+    ("--a-H", "1_0"): ("--a-H: 1_0", "several ways"),
+    ("--a-H", "1:30"): ("--a-H: 1:30", "several ways"),
+    ("--a-H", "'1'"): ("--a-H: '1'", "a number"),
+    ("--snapshot-times", "1,,2"): ("--snapshot-times: 1,,2", "an empty part"),
+    ("--snapshot-times", "0,0x1"): ("--snapshot-times: 0x1", "several ways"),
+    ("--scene", "a\0b"): ("--scene: a\\x00b", "control character"),
+    ("--scene", "x\udcff"): ("--scene: x\\udcff", "control character"),
+    ("--scene", "x\x1b[31m"): ("--scene: x\\x1b[31m", "control character"),
+    ("--scene-options", "angle=030"): ("--scene-options: 030", "several ways"),
+    ("--scene-options", "file=a\0b", "--scene", "raster"): ("--scene-options", "a\\x00b"),
+    ("--config", "a\0b"): ("a\\x00b", "null"),
     ("--config", "absent.yaml"): ("absent.yaml", "no such file"),
     ("extra",): ("extra",),
 }
@@ -71,12 +88,41 @@ def test_bad_configuration_of_run(text, part, capsys, write_yaml):
     assert part in complaint(capsys, "run", "--config", "point.yaml", "-o", "x.nc")
 
 
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        ("study: A/B", ("study: A/B", "lower-case letters")),
+        ("study: 2024", ("study: 2024 is a number", "in quotes")),
+        ("study: " + "a" * 300, ("study: aaa", "at most 64")),
+        ("bands: maybe", ("bands: maybe", "true or false")),
+        ("figures: 7", ("figures: 7", "auto, none or a list")),
+        ("figures: [fig06_frnts]", ("figures: fig06_frnts", "did you mean 'fig06_fronts'?")),
+    ],
+)
+def test_keys_of_a_study_are_checked_for_one_run_too(text, parts, capsys, write_yaml):
+    write_yaml(text, "point.yaml")
+    line = complaint(capsys, "run", *QUICK, "--config", "point.yaml", "-o", "x.nc")
+    assert line.startswith("subslide: point.yaml: ")
+    for part in parts:
+        assert part in line
+
+
+def test_what_says_nothing_of_one_run_is_told(capsys, write_yaml):
+    write_yaml("study: t\nfigures: none\nbands: true\na_H: [2]", "point.yaml")
+    assert main(["run", *QUICK, "--config", "point.yaml", "-o", "x.nc"]) == 0
+    assert capsys.readouterr().err == (
+        "subslide: point.yaml: bands: true has no meaning for one run and is left out\n"
+    )
+    assert read("x.nc")[0]["a_H"].values == 2
+
+
 def test_bad_outputs(capsys, tmp_path, write_yaml):
     assert "does not exist" in complaint(capsys, "run", *QUICK, "-o", "absent/x.nc")
     assert "is a folder" in complaint(capsys, "run", *QUICK, "-o", str(tmp_path))
     write_yaml("r: 0", "point.yaml")
     assert "is the input" in complaint(capsys, "run", "--config", "point.yaml", "-o", "point.yaml")
     assert "--output" in complaint(capsys, "run", *QUICK)
+    assert "--output: a\\x00b.nc has a control character" in complaint(capsys, "run", *QUICK, "-o", "a\0b.nc")
     assert "cannot be written" in complaint(capsys, "run", *QUICK, "-o", "/proc/x.nc")
 
 
@@ -164,32 +210,32 @@ def test_a_warm_run_starts_light():
 
 
 def test_a_batch_leaves_a_checksum_beside_its_record(capsys):
-    from subslide.files import file_hash
+    from pathlib import Path
+
+    from subslide import checksums
     from subslide.study import batches, config
 
     study = config.make_study({"study": "t", "a_H": [1, 2], "model": "radial", "cells": 20, "t_end": 0.02})
-    from pathlib import Path
-
-    plan = batches.plan(study, Path("t"), extend=True)
-    assert main(["batch", f"t/batches/{next(iter(plan.batches))}.json", "-o", "b.nc"]) == 0
+    text = batches.spec_text(study.points)
+    Path("b.json").write_text(text)
+    assert main(["batch", "b.json", "--ledger", "kept.json", "-o", "b.nc"]) == 0
     assert capsys.readouterr().out.count("\n") == 3
     assert read("b.nc")[0]["id"].values.tolist() == [p.id for p in study.points]
-    assert Path("b.nc.sha256").read_text() == f"{file_hash('b.nc')}  b.nc\n"
+    assert subprocess.run(["sha256sum", "-c", "--strict", "b.nc.sha256"], check=False).returncode == 0
+    assert checksums.verify("b.nc") == {"batch": checksums.text_hash(text), "sources": subslide.source_hash()}
+    assert Path("kept.json").read_text() == text
 
 
 @pytest.mark.parametrize("damage", ["a byte", "half", "nothing left"])
-def test_a_damaged_record_gets_one_line(damage, capsys, make_run, write_tables):
+def test_a_damaged_record_gets_one_line(damage, capsys, make_run, write_tables, solve_study):
     from pathlib import Path
 
-    from subslide.records import netcdf
-    from subslide.study import batches, config
+    from subslide.study import config
 
     folder = Path("study")
     study = config.make_study({"study": "t", "a_H": [1, 2], "model": "radial", "cells": 20})
-    (batch,) = batches.plan(study, folder, extend=True).batches
-    record = folder / f"records/{batch}.nc"
-    record.parent.mkdir()
-    netcdf.write(record, [make_run(point) for point in study.points])
+    solve_study(study, folder, lambda points: [make_run(point) for point in points])
+    record = folder / "records/0001.nc"
     write_tables(folder)
     before = {path: path.read_bytes() for path in (folder / "tables").iterdir()}
     content = bytearray(record.read_bytes())
@@ -202,8 +248,7 @@ def test_a_damaged_record_gets_one_line(damage, capsys, make_run, write_tables):
         assert main(call) == 1
         out, err = capsys.readouterr()
         assert out == ""
-        assert err.startswith(f"subslide: {record}: ")
-        assert "damaged" in err
+        assert err.startswith(f"subslide: {record} does not match its checksum")
         assert err.count("\n") == 1
     assert {path: path.read_bytes() for path in (folder / "tables").iterdir()} == before
 

@@ -1,6 +1,7 @@
 """Configurations: what is accepted, and that each mistake gives one line with key, value and what is allowed."""
 
 import re
+import time
 
 import pytest
 
@@ -11,7 +12,7 @@ from subslide.points import RUN_KEYS, Point
 from subslide.study import config
 
 MISTAKES = {
-    "r: 1.5": ("r: 1.5", "from 0 to below 1"),
+    "r: 1.5": ("r: 1.5", "from 0 to 0.99999"),
     "a_H: -1": ("a_H: -1", "from 0 to 1000"),
     "cells: ten": ("cells: ten", "whole number from 10"),
     "cells: 200.5": ("cells: 200.5", "whole number"),
@@ -21,7 +22,11 @@ MISTAKES = {
     "a_H: []": ("a_H: []", "empty grid"),
     "a_H: [1, [2]]": ("a_H: [2]", "a number"),
     "a_H: {x: 1}": ("a_H", "a number"),
-    "a_H: '1'": ("a_H: '1'", "a number"),
+    "a_H: '1'": ("a_H: '1' is text", "a number from 0 to 1000, without quotes"),
+    "order: '1'": ("order: '1' is text", "one of 1, 2, without quotes"),
+    "bands: 'false'": ("bands: 'false' is text", "true or false, without quotes"),
+    "bands: yes": ("bands: yes is not allowed", "true or false"),
+    "t_end: '0.5'": ("t_end: '0.5' is text", "rest or a number", "without quotes"),
     "a_H:": ("a_H: nothing", "a number"),
     "r: .nan": ("r: .nan", "a number"),
     "a_H: [1, .inf]": ("a_H: .inf", "a number"),
@@ -30,8 +35,8 @@ MISTAKES = {
     "scheme: ifcpf": ("scheme: ifcpf", "hll", "did you mean 'ifcp"),
     "model: Radial": ("model: Radial", "did you mean 'radial'?"),
     "t_end: rst": ("t_end: rst", "did you mean 'rest'?"),
-    "t_end: 0": ("t_end: 0", "above 0"),
-    "snapshot_times: [0, -1]": ("snapshot_times", "-1", "list of numbers"),
+    "t_end: 0": ("t_end: 0", "from 1e-09 to 1e+09"),
+    "snapshot_times: [0, -1]": ("snapshot_times", "-1", "list of at most 1,000 numbers"),
     "fields: 3": ("fields: 3", "true or false"),
     "fields: true": ("fields: true", "quarter, plane"),
     "boundary: periodic": ("boundary: periodic", "model: radial", "allowed: line, plane"),
@@ -47,8 +52,8 @@ MISTAKES = {
     "numerics: papr": ("numerics: papr", "did you mean 'paper'?"),
     "a_H: 1\na_H: 2": ("line 3", "'a_H' is given twice"),
     "a_H: [1": ("not valid YAML",),
-    "a_H: \x00": ("not valid YAML",),
-    "a: &a [*a]": ("a:", "no such key"),
+    "a_H: \x00": ("line 2", "character \x00"),
+    "a_H: &a [*a]": ("line 2", "a_H", "*a refers to itself"),
     "bands: 3": ("bands: 3", "true or false"),
     "{bands: true, cells: 50}": ("cells: 50", "bands: true", "multiple of 4 from 40"),
     "{bands: true, cells: 36}": ("cells: 36", "bands: true", "multiple of 4 from 40"),
@@ -57,7 +62,7 @@ MISTAKES = {
     "cases:": ("cases: nothing", "list of mappings"),
     "cases: {a_H: 1}": ("cases: ", "list of mappings"),
     "cases: [{}, 3]": ("cases[1]: 3", "a mapping of keys of a run"),
-    "cases: [{}, {}, {delta: 95}]": ("cases[2].delta: 95", "from 0 to below 90"),
+    "cases: [{}, {}, {delta: 95}]": ("cases[2].delta: 95", "from 0 to 89"),
     "cases: [{a_H: []}]": ("cases[0].a_H: []", "empty grid"),
     "cases: [{detla: 30}]": ("cases[0].detla", "30", "did you mean 'delta'?"),
     "cases: [{figur: none}]": ("cases[0].figur", "no such key"),
@@ -159,6 +164,52 @@ def test_too_many_points_in_all_cases_are_refused():
         config.make_study({"study": "t", "cases": [values, values]})
 
 
+def test_combinations_of_scene_options_are_counted_before_they_are_made():
+    options = {"x": [n / 1000 for n in range(400)], "y": [n / 1000 for n in range(400)]}
+    start = time.monotonic()
+    with pytest.raises(ConfigError, match="80000000 points; allowed: at most 200000"):
+        config.make_study({"study": "t", "scene": "columns", "cases": [{"scene_options": options}] * 500})
+    axes = {key: [0.1 + n / 1000 for n in range(500)] for key in ("a_H", "r", "a_2")}
+    with pytest.raises(ConfigError, match="125000000 points"):
+        config.make_study({"study": "t", **axes})
+    assert time.monotonic() - start < 3
+
+
+def test_companions_for_bands_count_as_points():
+    values = {"study": "t", "a_H": [n / 1000 for n in range(300)], "r": [n / 1000 for n in range(300)]}
+    with pytest.raises(ConfigError, match="270000 points, companions for bands among them"):
+        config.make_study({**values, "bands": True})
+
+
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        ("a_2: 1e-40", ("a_2: 1e-40", "from 0.001 to 100")),
+        ("radius: 1e-300", ("radius: 1e-300", "from 1e-06")),
+        ("r: 0.99999999", ("r: 0.99999999", "from 0 to 0.99999")),
+        ("g: 1e-30", ("g: 1e-30", "from 1e-06")),
+        ("cfl: 1e-9", ("cfl: 1e-09", "from 0.01 to 4")),
+        ("t_end: 1e-30", ("t_end: 1e-30", "from 1e-09")),
+        ("xi: 1e-30", ("xi: 1e-30", "from 0.001")),
+        ("pouliquen_length: 1e-30", ("pouliquen_length: 1e-30", "from 1e-06")),
+        ("delta: 89.999", ("delta: 89.999", "from 0 to 89")),
+        ("a_H: 1e-20", ("a_H: 1e-20 is lost beside 1 in float64", "0, or from 1.1e-16")),
+        ("a_H: 1e-9\ndtype: float32", ("a_H: 1e-09 is lost beside 1 in float32", "6e-08")),
+        ("delta: 1e-40\ndtype: float32", ("delta: 3.1", "no number of float32")),
+        (
+            "dtype: float32\nscene: columns\nscene_options: {x: 1e-40}",
+            ("x: 1e-40", "no number of float32", "1.18e-38"),
+        ),
+        ("dtype: [float64, float32]\ndelta: 1e-40", ("no number of float32",)),
+    ],
+)
+def test_values_that_the_equations_cannot_hold_are_refused(text, parts, write_yaml):
+    with pytest.raises(ConfigError) as caught:
+        config.read_study(write_yaml(f"study: t\n{text}\n"))
+    for part in parts:
+        assert part in str(caught.value)
+
+
 def test_a_run_takes_no_cases():
     with pytest.raises(ConfigError, match="cases.*only in a study"):
         config.make_point({"cases": [{"a_H": 1}]})
@@ -195,7 +246,7 @@ def test_numbers_that_yaml_reads_as_text_are_numbers(write_yaml):
 
 def test_defaults_of_points_are_those_of_the_schema():
     assert config.make_point({}) == Point()
-    assert set(schema.properties()) == {"study", "figures", "bands", "cases", "numerics", *RUN_KEYS}
+    assert set(schema.properties()) == {*schema.with_role("study", "preset"), *RUN_KEYS}
 
 
 def test_every_key_is_described():

@@ -8,10 +8,8 @@ from subslide import exact
 from subslide.__main__ import main
 from subslide.keys.schema import ConfigError
 from subslide.pages import renewal, verification
-from subslide.records import netcdf as records
 from subslide.results import Results
-from subslide.study import batches, config
-from subslide.study.batches import read_batch
+from subslide.study import config
 from subslide.tables import _norms, _orders, errors
 
 WAVE = {
@@ -24,15 +22,12 @@ WAVE = {
 
 
 @pytest.fixture
-def folder(tmp_path, make_run, write_tables):
+def folder(tmp_path, make_run, write_tables, solve_study):
     """Function that makes up a study whose profiles are exact but for `shift(point)`, in units of the amplitude."""
 
     def finish(shift, **values):
         study = config.make_study({"study": "t", "t_end": 0.5, "snapshot_times": [0], **values})
-        for name in batches.plan(study, tmp_path, extend=True).batches:
-            (tmp_path / "records").mkdir(exist_ok=True)
-            points = read_batch(tmp_path / "batches" / f"{name}.json")
-            records.write(tmp_path / "records" / f"{name}.nc", [solved(make_run, p, shift) for p in points])
+        solve_study(study, tmp_path, lambda points: [solved(make_run, point, shift) for point in points])
         write_tables(tmp_path, "errors")
         return tmp_path
 

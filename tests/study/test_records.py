@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from subslide import naming, source_hash
-from subslide.files import replacing, write_json
+from subslide.files import replacing
 from subslide.points import Point
 from subslide.records import netcdf as records
 from subslide.records import variables as layout
@@ -213,13 +213,6 @@ def test_an_error_leaves_no_temporary_file(tmp_path):
     with pytest.raises(RuntimeError):
         fail()
     assert list(tmp_path.iterdir()) == []
-
-
-def test_equal_json_is_not_written_again(tmp_path):
-    write_json(tmp_path / "a.json", {"a": 1})
-    before = (tmp_path / "a.json").stat().st_mtime_ns
-    write_json(tmp_path / "a.json", {"a": 1})
-    assert (tmp_path / "a.json").stat().st_mtime_ns == before
 
 
 def test_numerics_may_differ_within_a_batch(tmp_path, make_run):

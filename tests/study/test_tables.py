@@ -5,27 +5,22 @@ import pandas as pd
 import pytest
 
 from subslide import solver
-from subslide.records import netcdf as records
 from subslide.results import Results
-from subslide.study import batches, cautions, config
-from subslide.study.batches import read_batch
+from subslide.study import cautions, config
 from subslide.tables import _write, runs, series
 
 
 @pytest.fixture
-def finished(tmp_path, make_run, write_tables):
+def finished(tmp_path, make_run, write_tables, solve_study):
     """Function that makes up a finished study and returns its folder."""
 
     def finish(changes=None, **axes):
         study = config.make_study({"study": "t", "model": "radial", "cells": 40, **axes})
-        plan = batches.plan(study, tmp_path, extend=True)
-        (tmp_path / "records").mkdir(exist_ok=True)
-        for name in plan.batches:
-            points = read_batch(tmp_path / "batches" / f"{name}.json")
-            solved = [
-                make_run(p, steps=10 + n, **(changes or {}).get(p.a_H, {})) for n, p in enumerate(points)
-            ]
-            records.write(tmp_path / "records" / f"{name}.nc", solved)
+
+        def solve(points):
+            return [make_run(p, steps=10 + n, **(changes or {}).get(p.a_H, {})) for n, p in enumerate(points)]
+
+        solve_study(study, tmp_path, solve)
         write_tables(tmp_path)
         return tmp_path
 
@@ -110,12 +105,10 @@ def test_a_run_whose_energy_rose_is_known_by_its_column(finished):
     assert rises == pytest.approx({1: 0, 2: 0.7, 3: 0}, abs=1e-4)
 
 
-def test_the_film_of_the_caution_shows_its_rise(tmp_path, write_tables):
+def test_the_film_of_the_caution_shows_its_rise(tmp_path, write_tables, solve_study):
     film = cautions.REGIONS[0]
     study = config.make_study({"study": "t", **film.example})
-    (name,) = batches.plan(study, tmp_path, extend=True).batches
-    (tmp_path / "records").mkdir()
-    records.write(tmp_path / "records" / f"{name}.nc", [solver.solve(point) for point in study.points])
+    solve_study(study, tmp_path, lambda points: [solver.solve(point) for point in points])
     (row,) = write_tables(tmp_path).runs.to_dict("records")
     assert row["status"] == "ok"
     assert row["energy_rise"] > 10

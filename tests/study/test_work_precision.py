@@ -10,9 +10,7 @@ from subslide.__main__ import main
 from subslide.keys.schema import ConfigError
 from subslide.pages import work_precision as page_of
 from subslide.points import PAPER_RADIUS, Point
-from subslide.records import netcdf as records
-from subslide.study import batches, config
-from subslide.study.batches import read_batch
+from subslide.study import config
 from subslide.tables import _choices as words_of
 from subslide.tables import _problems as problems
 from subslide.tables import cheapest
@@ -45,16 +43,12 @@ def seconds_of(point: Point) -> float:
 
 
 @pytest.fixture
-def folder(tmp_path, make_run, write_tables):
+def folder(tmp_path, make_run, write_tables, solve_study):
     """Function that makes up a study whose runs differ from their limit by `error(point)`; None: the run failed."""
 
     def finish(error=error_of, **values):
         study = config.make_study({**SWEEP, **values})
-        (tmp_path / "records").mkdir(exist_ok=True)
-        for name in batches.plan(study, tmp_path, extend=True).batches:
-            points = read_batch(tmp_path / "batches" / f"{name}.json")
-            runs = [solved(make_run, point, error(point)) for point in points]
-            records.write(tmp_path / "records" / f"{name}.nc", runs)
+        solve_study(study, tmp_path, lambda points: [solved(make_run, p, error(p)) for p in points])
         write_tables(tmp_path, "work_precision", "cheapest")
         return tmp_path
 

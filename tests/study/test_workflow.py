@@ -8,18 +8,7 @@ import sys
 
 import pandas as pd
 import pytest
-import yaml
-
-from subslide import catalogue, tables
-from subslide.study.config import make_study
-
-STUDY = "study: small\na_H: [1, 2]\nr: 0.4\nmodel: radial\ncells: 20\nt_end: 0.05\nfigures: none\n"
-TABLES = {
-    f"table_{name}": 1
-    for name in catalogue.names("tables")
-    if not tables.load(name).needs(make_study(yaml.safe_load(STUDY)))
-}
-"""Jobs of the tables that every study has, one each."""
+from projects import STUDY, TABLES, Project
 
 NEW_TABLE = '''"""Where runs end."""
 
@@ -43,52 +32,6 @@ def table(results):
 pytestmark = pytest.mark.xdist_group("workflow")  # one worker: the tests share a finished study
 
 
-class Project:
-    """A copy of the workflow in a folder of its own, with one study."""
-
-    def __init__(self, root, folder):
-        self.root, self.folder = root, folder
-        for name in ("Snakefile", "workflow", "profiles", "config"):
-            copy = shutil.copytree if (root / name).is_dir() else shutil.copy
-            copy(root / name, folder / name)
-        self.results = folder / "results/small"
-        self.configure(STUDY)
-
-    def configure(self, text):
-        (self.folder / "small.yaml").write_text(text)
-
-    def snakemake(self, *arguments, check=True, **environment):
-        """Text that Snakemake prints."""
-        command = [
-            sys.executable,
-            "-m",
-            "snakemake",
-            "--configfile",
-            "small.yaml",
-            "--cores",
-            "2",
-            *arguments,
-        ]
-        done = subprocess.run(
-            command, cwd=self.folder, capture_output=True, text=True, env={**os.environ, **environment}
-        )
-        assert not check or done.returncode == 0, done.stdout + done.stderr
-        return done.stdout + done.stderr
-
-    def jobs(self, *arguments, **environment):
-        """Number of jobs of each rule that a run of Snakemake started, or would start."""
-        text = self.snakemake(*arguments, **environment)
-        table = re.search(r"^job +count\n-+ +-+\n((?:\w+ +\d+\n)+)", text, re.MULTILINE)
-        if not table:
-            assert "Nothing to be done" in text, text
-            return {}
-        rows = (line.split() for line in table[1].splitlines())
-        return {rule: int(count) for rule, count in rows if rule not in ("all", "total")}
-
-    def runs(self):
-        return pd.read_csv(self.results / "tables/runs.csv")
-
-
 @pytest.fixture(scope="session")
 def finished(root, tmp_path_factory):
     """A finished study; tests get copies of it."""
@@ -100,16 +43,12 @@ def finished(root, tmp_path_factory):
 @pytest.fixture
 def project(finished, tmp_path):
     """A copy of the finished study, with times of files kept."""
-    folder = tmp_path / "copy"
-    shutil.copytree(finished.folder, folder)
-    copied = object.__new__(Project)
-    copied.root, copied.folder, copied.results = finished.root, folder, folder / "results/small"
-    return copied
+    return finished.copy(tmp_path / "copy")
 
 
 def test_a_study_ends_with_records_tables_and_report(finished):
     assert set(TABLES) >= {"table_runs", "table_series", "table_timing"}
-    assert finished.first == {"warm": 1, "batch": 1, **TABLES, "report": 1}
+    assert finished.first == {"points": 1, "batch": 1, **TABLES, "report": 1}
     assert finished.runs()["status"].isin(["ok", "not_at_rest"]).all()
     assert len(finished.runs()) == 2
     for name in ("records/0001.nc", "tables/series.csv", "tables/timing.csv", "report.html"):
@@ -150,7 +89,7 @@ def test_a_wider_grid_computes_only_what_is_new(project):
     record = project.results / "records/0001.nc"
     before = record.stat().st_mtime_ns
     project.configure(STUDY.replace("a_H: [1, 2]", "a_H: [0.5, 2, 1]"))
-    assert project.jobs() == {"batch": 1, **TABLES, "report": 1}
+    assert project.jobs() == {"points": 1, "batch": 1, **TABLES, "report": 1}
     assert record.stat().st_mtime_ns == before
     assert project.runs()["a_H"].tolist() == [0.5, 2, 1]
     assert project.jobs() == {}
@@ -160,11 +99,11 @@ def test_bands_solve_companions_alone_and_leave_no_trace_when_removed(project):
     """The study is solved at 20 cells; asked for at 40, it has those runs as companions, and lacks 10 cells alone."""
     text = STUDY.replace("cells: 20", "cells: 40")
     project.configure(text)
-    assert project.jobs() == {"batch": 1, **TABLES, "report": 1}
+    assert project.jobs() == {"points": 1, "batch": 1, **TABLES, "report": 1}
     plain = project.runs()
     records = {path: path.stat().st_mtime_ns for path in project.results.glob("records/*.nc")}
     project.configure(text + "bands: true\n")
-    assert project.jobs() == {"batch": 1, **TABLES, "table_bands": 1, "report": 1}
+    assert project.jobs() == {"points": 1, "batch": 1, **TABLES, "table_bands": 1, "report": 1}
     assert records.items() <= {p: p.stat().st_mtime_ns for p in project.results.glob("records/*.nc")}.items()
     assert project.jobs("-n") == {}
     bands, runs = pd.read_csv(project.results / "tables/bands.csv"), project.runs()
@@ -174,16 +113,16 @@ def test_bands_solve_companions_alone_and_leave_no_trace_when_removed(project):
     assert final["convergence"].tolist() == runs["L_f_1pc_convergence"].tolist()
     assert set(pd.read_csv(project.results / "tables/series.csv")["id"]) == set(runs["id"])
     project.configure(text)
-    assert project.jobs() == {**TABLES, "report": 1}
+    assert project.jobs() == {"points": 1, **TABLES, "report": 1}
     assert not (project.results / "tables/bands.csv").exists()
     pd.testing.assert_frame_equal(project.runs(), plain)
 
 
 def test_another_order_or_fewer_points_renew_the_tables_alone(project):
     project.configure(STUDY.replace("a_H: [1, 2]", "a_H: [2.0, 1]"))
-    assert project.jobs("-n") == {**TABLES, "report": 1}
+    assert project.jobs("-n") == {"points": 1, **TABLES, "report": 1}
     project.configure(STUDY.replace("a_H: [1, 2]", "a_H: [2]"))
-    assert project.jobs() == {**TABLES, "report": 1}
+    assert project.jobs() == {"points": 1, **TABLES, "report": 1}
     assert project.runs()["a_H"].tolist() == [2]
 
 
@@ -193,7 +132,7 @@ def test_changed_code_runs_everything_again(project):
     with open(source / "subslide/naming.py", "a") as file:
         file.write("# a change\n")
     again = project.jobs("-n", PYTHONPATH=str(source))
-    assert again == {"warm": 1, "batch": 1, **TABLES, "report": 1}
+    assert again == {"batch": 1, **TABLES, "report": 1}
 
 
 def change(source, name):
@@ -223,25 +162,6 @@ def test_a_new_table_is_one_file(project):
     assert ends["end"].tolist() == project.runs()["L_f_1pc"].tolist()
     (source / "subslide/tables/ends.py").unlink()
     assert project.jobs(PYTHONPATH=str(source))["report"] == 1
-
-
-def test_a_damaged_record_is_solved_again_though_its_time_and_size_are_kept(project):
-    record = project.results / "records/0001.nc"
-    times = record.stat()
-    content = bytearray(record.read_bytes())
-    content[len(content) // 2] ^= 1
-    record.write_bytes(content)
-    os.utime(record, ns=(times.st_atime_ns, times.st_mtime_ns))
-    assert "0001.nc does not match its checksum" in project.snakemake("-n")
-    assert record.read_bytes() == content  # a dry run changes nothing
-    assert project.jobs()["batch"] == 1
-    assert record.read_bytes() != content
-    assert project.jobs() == {}
-
-
-def test_missing_records_are_solved_again(project):
-    shutil.rmtree(project.results / "records")
-    assert project.jobs("-n")["batch"] == 1
 
 
 def test_mistakes_are_told_before_anything_is_written(project):

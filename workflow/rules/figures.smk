@@ -38,4 +38,4 @@ for name in STUDY.figures:
             results=RESULTS,
             folder=RESULTS / "figures",
         shell:
-            "subslide figure {params.name:q} --results {params.results:q} -o {params.folder:q} > {log:q} 2>&1"
+            "logged {log:q} subslide figure {params.name:q} --results {params.results:q} -o {params.folder:q}"

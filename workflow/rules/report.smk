@@ -1,19 +1,11 @@
-# Report: Snakemake's own, made by a second Snakemake once everything it shows is there.
-import os
-
-CONFIG_FILES = workflow.overwrite_configfiles or ["config/paper.yaml"]  # no parameter: its form may vary
-
-
-rule shown:
-    input:
-        ALL_TABLES,
-        FIGURES,
+# Report: one page of what the study found, for a browser without a network.
 
 
 rule report:
     input:
-        rules.shown.input,
-        captions=[os.path.relpath(path) for path in sorted(CAPTIONS.glob("*.rst"))],
+        SEALED_TABLES,
+        FIGURES,
+        captions=sorted(CAPTIONS.glob("*.rst")),
     output:
         RESULTS / "report.html",
     log:
@@ -23,5 +15,9 @@ rule report:
     resources:
         mem_mb=1000,
         runtime=30,
+    params:
+        sources=source_hash("page", "report"),
+        results=RESULTS,
+        captions=CAPTIONS,
     shell:
-        "snakemake --nolock --cores 1 --configfile {CONFIG_FILES:q} --report {output:q} -- shown > {log:q} 2>&1"
+        "logged {log:q} subslide report {params.results:q} --captions {params.captions:q} -o {output:q}"

@@ -1,61 +1,66 @@
-# Records: one job solves the points of one batch.
-
-import re
-import sys
+# Records: one job solves the points of one batch. Which batch has which points stands in the plan.
 from shlex import quote
 
-RECORDS = [RESULTS / f"records/{batch}.nc" for batch in PLAN.batches]
-CHECKSUMS = [f"{record}.sha256" for record in RECORDS]
-DRY_RUN = any(re.fullmatch("-n[a-z]*|--dry-?run", word) for word in sys.argv)
+RECORDS = [RESULTS / f"records/{batch}.nc" for batch in STAGED.specs]
 
-# Jobs find the commands of the virtual environment that Snakemake itself runs in.
-shell.prefix(f"set -euo pipefail; export PATH={quote(str(Path(sys.executable).parent))}:$PATH; ")
-
-if workflow.is_main_process:
-    for record in batches.damaged(RESULTS, PLAN.batches):
-        print(f"{record} does not match its checksum: it is deleted and solved again", file=sys.stderr)
-        if not DRY_RUN:
-            record.unlink()
+# Jobs find the commands of the virtual environment that Snakemake itself runs in; what a failed one said last is shown.
+shell.prefix(
+    f"set -euo pipefail; export PATH={quote(str(Path(sys.executable).parent))}:$PATH; "
+    'logged() {{ log=$1; shift; "$@" > "$log" 2>&1 || '
+    '{{ code=$?; echo "$log:" >&2; tail -n 5 "$log" >&2; exit $code; }}; }}; '
+)
 
 
-# One job compiles what several would otherwise compile at once. A batch names its kernels for good, and they change
-# with their sources alone, so this input never asks for a batch that need not run again. It must not be `ancient`:
-# when Snakemake (9.27) runs this rule it then leaves out the batches, although their own sources have changed.
-rule warm:
+def sealed(path):
+    """Return the paths of a file and of its checksum."""
+    return [path, checksums.beside(path)]
+
+
+def stamp(name, outputs, whole):
+    """Return the input by which a job starts again where what it made is not whole, as `whole()` tells."""
+    return staging.stamp(HOME, name, outputs, whole()) if workflow.is_main_process else HOME / name
+
+
+for batch in STAGED.specs:
+    stamp(f"batch-{batch}", [RESULTS / f"records/{batch}.nc"], lambda: not PLAN.batches[batch].text)
+
+
+# The runs of the study and their order: tables follow from it.
+rule points:
+    input:
+        stamp(
+            "points",
+            [RESULTS / "points.json"],
+            lambda: staging.holds(RESULTS / "points.json", PLAN.points_text),
+        ),
     output:
-        touch(RESULTS / "kernels/{kernels}.done"),
+        sealed(RESULTS / "points.json"),
     log:
-        RESULTS / "logs/kernels-{kernels}.log",
-    benchmark:
-        RESULTS / "benchmarks/kernels-{kernels}.tsv"
-    resources:
-        mem_mb=1500,
-        runtime=30,
+        RESULTS / "logs/points.log",
     params:
-        sources=source_hash("solver"),
-        kernels=lambda wildcards: wildcards.kernels.replace("_", ":"),
+        text=STAGED.points_file,
     shell:
-        "subslide warm {params.kernels:q} > {log:q} 2>&1"
+        "logged {log:q} subslide keep {params.text:q} -o {output[0]:q}"
 
 
 rule batch:
     input:
-        spec=RESULTS / "batches/{batch}.json",
-        kernels=lambda wildcards: RESULTS / f"kernels/{PLAN.batches[wildcards.batch].replace(':', '_')}.done",
+        HOME / "batch-{batch}",
     output:
         record=RESULTS / "records/{batch}.nc",
         checksum=RESULTS / "records/{batch}.nc.sha256",
+        ledger=RESULTS / "batches/{batch}.json",
     log:
         RESULTS / "logs/batch-{batch}.log",
     benchmark:
         RESULTS / "benchmarks/batch-{batch}.tsv"
     wildcard_constraints:
-        batch=r"\d+",
+        batch=r"\d+(p\d+)?",
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=120,
+        mem_mb=lambda wildcards, attempt: attempt * STAGED.needs[wildcards.batch].mem_mb,
+        runtime=lambda wildcards, attempt: attempt * STAGED.needs[wildcards.batch].runtime,
     params:
-        sources=source_hash(),
+        spec=lambda wildcards: STAGED.specs[wildcards.batch],
     shell:
-        "subslide batch {input.spec:q} --threads {threads} -o {output.record:q} > {log:q} 2>&1"
+        "logged {log:q} subslide batch {params.spec:q} --threads {threads} -o {output.record:q} --ledger {output.ledger:q}"

@@ -5,8 +5,8 @@ TABLES = {
     for name in catalogue.names("tables")
     if not tables.load(name).needs(STUDY)
 }
-ALL_TABLES = [path for paths in TABLES.values() for path in paths]
-CAPTIONS = Path(workflow.basedir, "workflow/report")
+SEALED_TABLES = [file for paths in TABLES.values() for path in paths for file in sealed(path)]
+CAPTIONS = BASE / "workflow/report"
 
 
 def caption(name):
@@ -19,12 +19,11 @@ def made_from(name):
     """Return the files that a table is made from."""
     about = catalogue.table(name)
     records = [RESULTS / "points.json", *RECORDS] if "records" in about.reads else []
-    kernels = [RESULTS / f"kernels/{kernels.replace(':', '_')}.done" for kernels in about.kernels]
-    return [*records, *kernels, *(path for other in about.reads for path in TABLES.get(other, []))]
+    return [*records, *(path for other in about.reads for path in TABLES.get(other, []))]
 
 
 def in_report(name, path):
-    """Return the path of a table's file, marked for the report if the table has a caption."""
+    """Return the path of a table's file, marked for Snakemake's report if the table has a caption."""
     if not caption(name):
         return path
     about = catalogue.table(name)
@@ -32,11 +31,10 @@ def in_report(name, path):
     return report(path, caption=caption(name), category=about.category, labels=labels)
 
 
-# Tables that the study had before, and has no more, would be read as if they were its own.
-if workflow.is_main_process and not DRY_RUN:
-    for name in set(catalogue.names("tables")) - set(TABLES):
-        for path in (RESULTS / "tables").glob(f"{name}.*"):
-            path.unlink()
+def whole(name):
+    """Return whether the files of a table are as they were written, by the same sources."""
+    return staging.are_whole(TABLES[name], sources=source_hash("table", name))
+
 
 for name in TABLES:
 
@@ -45,8 +43,10 @@ for name in TABLES:
             f"table_{name}"
         input:
             made_from(name),
+            stamp=stamp(f"table-{name}", TABLES[name], lambda: whole(name)),
         output:
             [in_report(name, path) for path in TABLES[name]],
+            [checksums.beside(path) for path in TABLES[name]],
         log:
             RESULTS / f"logs/table-{name}.log",
         benchmark:
@@ -55,8 +55,7 @@ for name in TABLES:
             mem_mb=2000,
             runtime=60,
         params:
-            sources=source_hash("table", name),
             name=name,
             results=RESULTS,
         shell:
-            "subslide table {params.name:q} {params.results:q} > {log:q} 2>&1"
+            "logged {log:q} subslide table {params.name:q} {params.results:q}"

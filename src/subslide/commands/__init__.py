@@ -3,12 +3,15 @@
 Start-up is most of a radial run's time, so what a verb needs is imported when it is called.
 """
 
+import signal
+
 import click
 
 import subslide
+from subslide.files import Stopped
 from subslide.keys import words
 
-MODULES = tuple(f"{__name__}.{name}" for name in ("solving", "tabulating", "showing"))
+MODULES = tuple(f"{__name__}.{name}" for name in ("solving", "making", "tabulating", "showing"))
 """Modules with verbs, in the order that help lists them."""
 
 
@@ -29,6 +32,13 @@ class Verbs(click.Group):
                 f"{args[0]}: there is no such command; allowed: {', '.join(self.commands)}{hint}"
             )
         return super().resolve_command(ctx, args)
+
+    def invoke(self, ctx: click.Context) -> object:
+        """Return what the called command returns; Stopped after Ctrl-C, to which click would add an empty line."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            raise Stopped(signal.SIGINT) from None
 
 
 @click.group(cls=Verbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})

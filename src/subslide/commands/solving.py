@@ -1,4 +1,4 @@
-"""Verbs that check and solve: `run` for one collapse, and what the workflow's rules call."""
+"""Verbs that check and solve: `run` for one collapse, `check` for studies."""
 
 import gc
 from collections.abc import Callable, Iterable
@@ -7,13 +7,32 @@ from typing import Any
 import click
 
 from subslide.commands import cli
-from subslide.keys import schema, words
+from subslide.keys import plain, schema, words
 from subslide.points import RUN_KEYS, Point
+
+LIMITS = ("max_core_hours", "max_memory", "max_disk")
+"""Keys of a study that say something of one run too."""
+
+
+class Count(click.IntRange):
+    """Whole number within a range, written as in a file."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the number that a text stands for; a complaint of click if it is none, or out of range."""
+        try:
+            return super().convert(plain.value_of(value) if isinstance(value, str) else value, param, ctx)
+        except ValueError as error:
+            self.fail(f"{words.cut(value)} {error}", param, ctx)
+
+
+threads_option = click.option(
+    "--threads", type=Count(1, 1024), default=1, show_default=True, help="threads of the kernels"
+)
 
 
 def run_options(command: Callable) -> Callable:
     """Return the command with one option for each key of a run; help texts come from the schema."""
-    for key in reversed(("numerics", *RUN_KEYS)):
+    for key in reversed((*LIMITS, "numerics", *RUN_KEYS)):
         about = schema.properties()[key]
         flag = "--" + key.replace("_", "-")
         default = about["default"]
@@ -39,9 +58,7 @@ def _help(key: str) -> str:
     "--config", metavar="FILE", help="YAML file of one point, with the keys of a study; options override it"
 )
 @run_options
-@click.option(
-    "--threads", type=click.IntRange(1, 1024), default=1, show_default=True, help="threads of the kernels"
-)
+@threads_option
 @click.option("-o", "--output", required=True, metavar="FILE.nc", help="record to write (NetCDF-4)")
 def run(config: str | None, threads: int, output: str, **options: Any) -> None:
     """Solve one collapse, print one line and write its record.
@@ -71,31 +88,17 @@ def caution(points: Iterable[Point]) -> None:
 @click.argument("config", nargs=-1, required=True)
 def check(config: tuple[str, ...]) -> None:
     """Check study files, CONFIG..., and print one line for each, with cautions where runs lie in unsafe regions."""
+    from subslide.study import cost
     from subslide.study.config import read_study
 
     for path in config:
         study = read_study(path)
         more = f" and {len(study.solved) - len(study.runs)} companions for bands" if study.bands else ""
         click.echo(
-            f"{path}: study '{study.name}', {len(study.runs)} runs{more}, {len(study.figures)} figures"
+            f"{path}: study '{study.name}', {len(study.runs)} runs{more}, {len(study.figures)} figures,"
+            f" {cost.estimate(study.solved).words()}"
         )
         caution(study.points)
-
-
-@cli.command()
-@click.argument("spec")
-@click.option(
-    "--threads", type=click.IntRange(1, 1024), default=1, show_default=True, help="threads of the kernels"
-)
-@click.option("-o", "--output", required=True, metavar="FILE.nc", help="record to write (NetCDF-4)")
-def batch(spec: str, threads: int, output: str) -> None:
-    """Solve the points of a batch file, SPEC, into one record with its SHA-256 beside it."""
-    from subslide import jobs
-
-    jobs.check_output(output, inputs=[spec])
-    jobs.set_threads(threads)
-    for line in jobs.batch(spec, threads, output):
-        click.echo(line)
 
 
 @cli.command()

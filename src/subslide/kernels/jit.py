@@ -7,6 +7,8 @@ processor, and no check for values that are not finite is deleted. The loops vec
 import numpy as np
 from numba import njit
 
+from subslide.kernels.cache import kept
+
 inlined = njit(error_model="numpy", forceinline=True, _nrt=False)
 """For functions of scalars or rows: inlined into the loop that calls them, so that the loop vectorises.
 
@@ -41,11 +43,11 @@ summed = njit(error_model="numpy", forceinline=True, _nrt=False, fastmath={"reas
 maximum = njit(error_model="numpy", forceinline=True, _nrt=False, fastmath={"nnan", "nsz", "reassoc"})
 """For maxima over a row, which vectorise only so; what is not finite is caught by the sums (see `budget`)."""
 
-launch = njit(error_model="numpy", parallel=True, cache=True)
+launch = kept(njit(error_model="numpy", parallel=True, nogil=True))
 """For entry points: `prange` tells LLVM that array arguments do not alias, without which no long loop here vectorises.
 
 Its body may only call: a field or an entry of a tuple taken there counts as an alias of it, and the promise is dropped.
 """
 
-driver = njit(error_model="numpy", cache=True)
-"""For time loops that call launches."""
+driver = kept(njit(error_model="numpy", nogil=True))
+"""For time loops that call launches. Without the lock of the interpreter, so that other threads see to signals."""

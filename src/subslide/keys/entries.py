@@ -71,13 +71,32 @@ def choice(role: str, description: str, default: Any, values: Any, listed: Calla
     return {"role": role, "description": description, **about}
 
 
+def limit(description: str, default: float, unit: str, minimum: float, maximum: float) -> Entry:
+    """Return the entry of a limit on what a study costs.
+
+    Parameters
+    ----------
+    description, default, unit, minimum, maximum
+        What the entry says, see above.
+
+    Returns
+    -------
+    Entry
+        The entry, of a key of a whole study.
+    """
+    text = f"{description}; a study, or one run, that needs more is refused before it starts"
+    about = {"type": "number", "minimum": minimum, "maximum": maximum, "default": default, "unit": unit}
+    return {"role": STUDY, "description": text, **about}
+
+
 ENTRIES: dict[str, Entry] = {
     "study": {
         "role": STUDY,
         "description": "name of the study and of its folder under results/",
         "type": "string",
         "pattern": "^[a-z0-9_-]+$",
-        "allowed": "lower-case letters, digits, '_' and '-'",
+        "maxLength": 64,
+        "allowed": "at most 64 lower-case letters, digits, '_' and '-'",
     },
     "figures": {
         "role": STUDY,
@@ -105,6 +124,9 @@ ENTRIES: dict[str, Entry] = {
         "allowed": "a list of mappings of keys of a run",
         "default": [{}],
     },
+    "max_core_hours": limit("hours on one core, as estimated, that a study may take", 100, "h", 1e-3, 1e7),
+    "max_memory": limit("memory, as estimated, that the largest run may take", 8, "GB", 0.1, 1e5),
+    "max_disk": limit("disk, as estimated, that records and tables may take", 20, "GB", 1e-3, 1e6),
     "numerics": {
         "role": PRESET,
         "description": "named set of model, scheme, order and cells; keys written out win over it",
@@ -120,11 +142,11 @@ ENTRIES: dict[str, Entry] = {
     "a_H": number(
         PHYSICS, "water depth above the column over the column's height, H1/H2", 1, minimum=0, maximum=1000
     ),
-    "a_2": number(PHYSICS, "aspect ratio of the column, H2/R", 0.56, exclusiveMinimum=0, maximum=100),
-    "r": number(PHYSICS, "density of water over density of grains", 0.4, minimum=0, exclusiveMaximum=1),
-    "delta": number(PHYSICS, "Coulomb friction angle", 32, "degree", minimum=0, exclusiveMaximum=90),
-    "radius": number(PHYSICS, "initial radius R of the column", 0.0705, "m", exclusiveMinimum=0, maximum=1e6),
-    "g": number(PHYSICS, "acceleration of gravity", 9.81, "m s-2", exclusiveMinimum=0, maximum=1000),
+    "a_2": number(PHYSICS, "aspect ratio of the column, H2/R", 0.56, minimum=1e-3, maximum=100),
+    "r": number(PHYSICS, "density of water over density of grains", 0.4, minimum=0, maximum=0.99999),
+    "delta": number(PHYSICS, "Coulomb friction angle", 32, "degree", minimum=0, maximum=89),
+    "radius": number(PHYSICS, "initial radius R of the column", 0.0705, "m", minimum=1e-6, maximum=1e6),
+    "g": number(PHYSICS, "acceleration of gravity", 9.81, "m s-2", minimum=1e-6, maximum=1000),
     "scene": {
         "role": SCENE,
         "description": "initial state; see Scenes",
@@ -158,7 +180,7 @@ ENTRIES: dict[str, Entry] = {
         "turbulence coefficient of voellmy friction",
         500,
         "m s-2",
-        exclusiveMinimum=0,
+        minimum=1e-3,
         maximum=1e9,
     ),
     "delta_2": number(
@@ -167,7 +189,7 @@ ENTRIES: dict[str, Entry] = {
         42,
         "degree",
         minimum=0,
-        exclusiveMaximum=90,
+        maximum=89,
     ),
     "pouliquen_length": number(
         PHYSICS,
@@ -175,7 +197,7 @@ ENTRIES: dict[str, Entry] = {
         " delta_2 to delta",
         0.005,
         "m",
-        exclusiveMinimum=0,
+        minimum=1e-6,
         maximum=1e6,
     ),
     "model": choice(
@@ -239,7 +261,7 @@ ENTRIES: dict[str, Entry] = {
         "Courant number of the time step; up to 1 every solver is meant to be stable, beyond it only the search for the"
         " limit belongs",
         0.9,
-        exclusiveMinimum=0,
+        minimum=0.01,
         maximum=4,
     ),
     "boundary": choice(
@@ -253,8 +275,8 @@ ENTRIES: dict[str, Entry] = {
         "role": SCENE,
         "description": "end time, or rest: until the grains are at rest and the last snapshot is taken, up to a cap in"
         " scaled time",
-        "anyOf": [{"enum": ["rest"]}, {"type": "number", "exclusiveMinimum": 0, "maximum": 1e9}],
-        "allowed": "rest or a number above 0, at most 1e+09",
+        "anyOf": [{"enum": ["rest"]}, {"type": "number", "minimum": 1e-9, "maximum": 1e9}],
+        "allowed": "rest or a number from 1e-09 to 1e+09",
         "default": "rest",
         "unit": "s",
         "axis": True,
@@ -269,7 +291,7 @@ ENTRIES: dict[str, Entry] = {
             {"enum": ["paper"]},
             {"type": "array", "items": {"type": "number", "minimum": 0, "maximum": 1e9}, "maxItems": 1000},
         ],
-        "allowed": "paper or a list of numbers from 0 to 1e+09",
+        "allowed": "paper or a list of at most 1,000 numbers from 0 to 1e+09",
         "default": "paper",
         "unit": "s",
     },

@@ -3,14 +3,11 @@
 import functools
 import json
 import math
-import re
 from collections.abc import Callable
 from typing import Any
 
 from subslide.keys.entries import ENTRIES, Entry
 from subslide.keys.words import refusal
-
-EXPONENT = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
 
 
 class ConfigError(ValueError):
@@ -98,7 +95,6 @@ def conform(about: Entry, value: Any, name: str) -> Any:
     """
     import fastjsonschema
 
-    value = _number_of_text(value)
     try:
         if not _finite(value):
             raise ConfigError
@@ -114,13 +110,6 @@ def _check(about: str) -> Callable:
     import fastjsonschema  # a tenth of the start-up time of jsonschema
 
     return fastjsonschema.compile(json.loads(about))
-
-
-def _number_of_text(value: Any) -> Any:
-    """Return the number for text such as '1e-3', which YAML 1.1 reads as text; any other value unchanged."""
-    if isinstance(value, list):
-        return [_number_of_text(entry) if isinstance(entry, str) else entry for entry in value]
-    return float(value) if isinstance(value, str) and EXPONENT.fullmatch(value) else value
 
 
 def _finite(value: Any) -> bool:

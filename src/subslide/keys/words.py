@@ -6,7 +6,37 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
+from subslide.keys import plain
 from subslide.keys.entries import ENTRIES, Entry
+
+MOST = 300
+"""Characters of a line to a user."""
+
+
+def printable(text: str, most: int = MOST) -> str:
+    """Return a message as one line that no terminal takes for orders.
+
+    Parameters
+    ----------
+    text
+        Message, with whatever the user gave in it.
+    most
+        Characters that it may have; a longer one is cut in the middle, since its end says what is allowed.
+
+    Returns
+    -------
+    str
+        The line; control characters, halves of pairs and the like are written out, as in Python.
+    """
+    text = _cut_in_the_middle(text, 10 * most)  # so that a huge one takes no time
+    letters = (c if c.isprintable() else c.encode("unicode_escape").decode() for c in " ".join(text.split()))
+    return _cut_in_the_middle("".join(letters), most)
+
+
+def _cut_in_the_middle(text: str, most: int) -> str:
+    """Return a text of at most so many characters: its beginning and its end."""
+    half = (most - 3) // 2
+    return text if len(text) <= most else f"{text[:half]}...{text[-half:]}"
 
 
 def closest(name: Any, known: Iterable[str]) -> str:
@@ -65,14 +95,34 @@ def show(value: Any) -> str:
         return "nothing"
     if isinstance(value, float) and not math.isfinite(value):
         return {"nan": ".nan", "inf": ".inf", "-inf": "-.inf"}[str(value)]
-    if isinstance(value, str) and _looks_like_number(value):
-        value = f"'{value}'"
+    if isinstance(value, str):
+        return cut(" ".join(value.split()) if plain.is_text(value) else f"'{value}'") or "''"
     try:
-        text = value if isinstance(value, str) else json.dumps(value, default=str)
-    except (ValueError, TypeError, RecursionError):
-        text = repr(value)
-    text = " ".join(text.split()) or "''"
-    return text if len(text) <= 60 else text[:57] + "..."
+        return cut(" ".join(json.dumps(value, default=str).split()))
+    except (
+        ValueError,
+        TypeError,
+        RecursionError,
+    ):  # an integer of thousands of digits, a list within itself, ...
+        return f"a value of type {type(value).__name__}"
+
+
+def cut(text: str, most: int = 60) -> str:
+    """Return the beginning of a long text.
+
+    Parameters
+    ----------
+    text
+        Any text.
+    most
+        Characters that it may have.
+
+    Returns
+    -------
+    str
+        The text, or its beginning and '...'.
+    """
+    return text if len(text) <= most else text[: most - 3] + "..."
 
 
 def refusal(about: Entry, value: Any, name: str) -> str:
@@ -92,9 +142,23 @@ def refusal(about: Entry, value: Any, name: str) -> str:
     str
         One line: the name, the value, what is allowed, and the nearest word to a mistyped one.
     """
-    hint = closest(value, map(str, choices(about))) if isinstance(value, str) else ""
     end = f" ({unit_of(about)})" if unit_of(about) else ""
-    return f"{name}: {show(value)} is not allowed; allowed: {range_of(about)}{end}{hint}"
+    allows = f"allowed: {range_of(about)}{end}"
+    if isinstance(value, str) and not plain.is_text(value) and _takes_others(about):
+        return f"{name}: {show(value)} is text; {allows}, without quotes"
+    if isinstance(value, int | float) and about.get("type") == "string" and "enum" not in about:
+        kind = "true or false" if isinstance(value, bool) else "a number"
+        return f"{name}: {show(value)} is {kind}; {allows}; as text it stands in quotes"
+    hint = closest(value, map(str, choices(about))) if isinstance(value, str) else ""
+    return f"{name}: {show(value)} is not allowed; {allows}{hint}"
+
+
+def _takes_others(about: Entry) -> bool:
+    """Return whether an entry takes numbers, or true and false, alone or beside words."""
+    parts = (about, *about.get("anyOf", ()))
+    return any(part.get("type") in ("number", "integer", "boolean") for part in parts) or any(
+        not isinstance(value, str) for value in choices(about)
+    )
 
 
 def choices(about: Entry) -> list:
@@ -114,12 +178,3 @@ def metavar(key: str) -> str:
     letter = "N" if about.get("type") == "integer" else by_unit
     many = ",..." if any(part.get("type") == "array" for part in about.get("anyOf", ())) else ""
     return listed + letter + many
-
-
-def _looks_like_number(text: str) -> bool:
-    """Return whether text would be read as a number without quotes."""
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True

@@ -46,6 +46,19 @@ cases:
   - {a_H: 1, r: [0, 0.2, 0.6], delta: [25, 35]}
 ```
 
+Files are read strictly, since much of YAML is read in several ways. A number is decimal (`200`, `0.5`, `1e-3`):
+`0200`, `1:30`, `1_000`, `0x1F` and dates are refused. Only `true` and `false` are booleans; what stands in quotes is
+text. A key comes once. Anchors, aliases and `<<` may join keys of cases; tags and several documents may not stand in a
+file. It is a regular file in UTF-8 of at most 1 MB and 200,000 values. Options of `subslide run` follow the same
+rules.
+
+What a study costs is estimated before it starts: `subslide check` says it, and one that needs more than
+`max_core_hours`, `max_memory` or `max_disk` is refused until its file sets that key higher. A run to rest is taken to
+end when friction stops its grains, and a box to grow as far as they may go; a run whose step collapses takes longer.
+`subslide run` has these limits too, as keys of its file and as options. Of the other keys of a study it checks
+`study`, `figures` and `bands`, whose values say nothing of one run, says that `bands: true` is left out, and refuses
+`cases`.
+
 `bands: true` solves each run on two coarser grids as well, and estimates from the three what the finest leaves
 uncertain; see `bands.csv` in docs/tables.md. Adding or removing it computes the coarser runs alone, or nothing.
 

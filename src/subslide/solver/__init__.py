@@ -13,6 +13,7 @@ from subslide.points import Point
 from subslide.solver.answer import Snapshot, describe, make_run, room_for_waves
 from subslide.solver.loop import advance_to, warm_up
 from subslide.solver.run import Run
+from subslide.study.checking import check_point
 
 DRY_DEPTH = 1e-6
 """Over H2: below it a layer counts as dry (HLL instead of IFCP) and velocities are cut off smoothly."""
@@ -45,13 +46,19 @@ def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | 
     threads
         Cores for one plane run; no result depends on it.
     progress
-        Function that is called with the fraction of the run's time that is done.
+        Function that is called now and then with the time in s that the run has reached.
 
     Returns
     -------
     Run
         Its answer, in the box that its front did not reach, or in the largest.
+
+    Raises
+    ------
+    ConfigError
+        If the point is none that a study could ask for: one line.
     """
+    check_point(point)
     numba.set_num_threads(max(1, min(threads, numba.config.NUMBA_NUM_THREADS)))
     box = point.half_cells
     while True:
@@ -95,7 +102,7 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
     for stop in sorted({*times, end}):
         clock[k.STOP] = stop / time_scale
         outcome, seconds = advance_to(
-            model, clock, chunks, lambda now: progress and progress(now * time_scale / end)
+            model, clock, chunks, lambda now: progress and progress(now * time_scale)
         )
         wall += seconds
         reached = clock[k.NOW] >= clock[k.STOP]

@@ -8,19 +8,27 @@ from collections.abc import Callable
 
 import numpy as np
 
+from subslide.kernels import cache, samples
 from subslide.kernels import clock as k
-from subslide.kernels import samples
 from subslide.kernels.arrays import Track
 from subslide.models.model import Model
 from subslide.naming import FRONT_THRESHOLDS
 
-CHUNK = 512
-"""Samples between two looks at the clock on the wall."""
+CHUNK, FEWEST = 512, 8
+"""Most and fewest samples of a launch."""
+
+LAUNCH = 0.3
+"""Seconds that a launch is to take at most: between two of them a signal is heard, and progress shown."""
+
+CELLS_A_SECOND = 4e6
+"""How fast cells are thought to be advanced before it has been measured."""
 
 PATIENCE = 5.0
 """Seconds in which kernels that have been compiled before are loaded."""
 
 COMPILING = "subslide: compiling the kernels of this model, once: about a minute"
+WAITING = "subslide: waiting for another process that compiles the kernels of this model: about a minute"
+NOT_KEPT = "subslide: compiled kernels are not kept, so the next run compiles anew: "
 
 _loaded: set[tuple[type, ...]] = set()
 """Compiled code that this process has used."""
@@ -39,14 +47,23 @@ def warm_up(model: Model) -> None:
     if code in _loaded:
         model.advance(thresholds(model), track)
         return
-    notice = threading.Timer(PATIENCE, print, [COMPILING], {"file": sys.stderr})
+    notice = threading.Timer(PATIENCE, lambda: _say(WAITING if cache.waiting() else COMPILING))
     notice.daemon = True
     notice.start()
     try:
         model.advance(thresholds(model), track)
     finally:
         notice.cancel()
+        cache.release()
+    if cache.faults:
+        _say(NOT_KEPT + cache.faults[0])
+        cache.faults.clear()
     _loaded.add(code)
+
+
+def _say(line: str) -> None:
+    """Print a line on stderr."""
+    print(line, file=sys.stderr)
 
 
 def advance_to(
@@ -72,12 +89,14 @@ def advance_to(
     tuple of int and float
         Why the loop ended, see `kernels.clock`, and the seconds that it took.
     """
-    wall = 0.0
+    wall, step = 0.0, model.cells.h1.size / CELLS_A_SECOND
     while True:
-        track = Track(clock, np.empty((CHUNK, samples.COLUMNS)), np.zeros(2, np.int64))
+        size = int(max(FEWEST, min(CHUNK, LAUNCH / max(step, 1e-9))))
+        track = Track(clock, np.empty((size, samples.COLUMNS)), np.zeros(2, np.int64))
         started = time.perf_counter()
         model.advance(thresholds(model), track)
-        wall += time.perf_counter() - started
+        taken = time.perf_counter() - started
+        wall, step = wall + taken, taken / int(track.counters[k.SAMPLES])
         if chunks:
             chunks[-1] = chunks[-1][:-1]
         chunks.append(track.samples[: track.counters[k.SAMPLES]])

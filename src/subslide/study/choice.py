@@ -1,9 +1,11 @@
 """The choice of model: the cheapest that is exact for what is asked of a point. Imports no kernels."""
 
 import functools
+import itertools
 from typing import NamedTuple
 
 from subslide import scenes
+from subslide.keys import names
 from subslide.keys.entries import ENTRIES
 from subslide.points import RUN_KEYS, Point
 
@@ -77,6 +79,13 @@ def kernels(point: Point) -> str:
     """Return the name of the compiled code that a point needs: ``model:dtype``, or ``model:dtype:general``."""
     choice = of(point)
     return f"{choice.model}:{point.dtype}" + (":general" if choice.general else "")
+
+
+@functools.cache
+def all_kernels() -> tuple[str, ...]:
+    """Return the names of all compiled code that a point may need, see `kernels`."""
+    kinds = itertools.product(names.MODELS, ENTRIES["dtype"]["enum"], ("", ":general"))
+    return tuple(f"{model}:{dtype}{general}" for model, dtype, general in kinds)
 
 
 def _geometry(model: str, symmetry: str) -> str:

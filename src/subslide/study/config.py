@@ -8,11 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from subslide import catalogue
 from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS, Point, from_dict
-from subslide.study import scene_options, together
+from subslide.study import checking, cost, scene_options, together, whole_study
 from subslide.study.yaml_files import read_yaml
 
 MOST_POINTS = 200_000
@@ -91,19 +90,22 @@ def make_study(values: dict) -> Study:
     _check_keys(values)
     if "study" not in values:
         raise ConfigError(f"study: this key is missing; allowed: {words.allowed('study')}")
-    name = schema.checked("study", values["study"])
-    bands = schema.checked("bands", values.get("bands", False))
+    whole = whole_study.values_of(values)
+    bands = whole["bands"]
     grids = _grids(values)
-    count = sum(math.prod(map(len, axes.values())) for _, axes in grids)
+    count = sum(map(_count, (axes for _, axes in grids))) * (1 + bands * len(COARSENING))
     if count > MOST_POINTS:
-        raise ConfigError(f"the grid has {count} points; allowed: at most {MOST_POINTS}")
+        among = ", companions for bands among them" if bands else ""
+        raise ConfigError(f"the grid has {count} points{among}; allowed: at most {MOST_POINTS}")
     runs: dict[str, tuple[str, Point]] = {}
     for place, axes in grids:
         with _named(place):
             for label, point in _product(axes, bands):
                 runs.setdefault(point.id, (label, point))
-    figures = _chosen_figures(values, [point for _, point in runs.values()])
-    return Study(name, figures, tuple(runs.values()), bands)
+    figures = whole_study.figures_of(whole["figures"], [point for _, point in runs.values()])
+    study = Study(whole["study"], figures, tuple(runs.values()), bands)
+    cost.check(study.solved, whole, "the study")
+    return study
 
 
 def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
@@ -112,7 +114,8 @@ def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
     Parameters
     ----------
     values
-        Value by key; a list of one value stands for the value.
+        Value by key; a list of one value stands for the value. Keys of a whole study but `cases` are checked, and
+        say nothing of the point.
     names
         What messages call a key, such as the option of the command line, where that is not its name.
 
@@ -132,6 +135,7 @@ def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
             f"cases: {words.show(values['cases'])} is not allowed for one run; allowed: only in a study"
         )
     names = names or {}
+    whole = whole_study.values_of(values, names)
     single = {}
     for key, value in values.items():
         if key not in CASE_KEYS:
@@ -141,7 +145,9 @@ def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
                 raise ConfigError(f"{key}: {words.show(value)} has {len(value)} values; a run takes one")
             value = value[0]
         single[key] = schema.checked(key, value, names.get(key, key))
-    return resolve(single, names)[1]
+    point = resolve(single, names)[1]
+    cost.check([point], whole, "the run")
+    return point
 
 
 def resolve(values: dict, names: dict[str, str] | None = None) -> tuple[str, Point]:
@@ -173,10 +179,11 @@ def resolve(values: dict, names: dict[str, str] | None = None) -> tuple[str, Poi
     label = values.pop("numerics", schema.properties()["numerics"]["default"])
     point = from_dict({**schema.properties()["numerics"]["presets"][label], **values})
     together.check(point)
+    checking.mark(point)
     return label, point
 
 
-def _grids(values: dict) -> list[tuple[str, dict[str, list]]]:
+def _grids(values: dict) -> list[tuple[str, dict[str, Any]]]:
     """Return the place in messages, and the axes by key, of each case; without `cases` of the one grid, placeless."""
     shared = _axes(values)
     if "cases" not in values:
@@ -194,13 +201,22 @@ def _grids(values: dict) -> list[tuple[str, dict[str, list]]]:
     return grids
 
 
-def _axes(values: dict) -> dict[str, list]:
-    """Return the values along its axis, checked, of each key of a run that a mapping has."""
+def _axes(values: dict) -> dict[str, Any]:
+    """Return the values along its axis, checked, of each key of a run that a mapping has; scene options as given."""
     return {key: _axis(key, values[key]) for key in CASE_KEYS if key in values}
 
 
-def _product(axes: dict[str, list], bands: bool) -> Iterator[tuple[str, Point]]:
+def _count(axes: dict[str, Any]) -> int:
+    """Return the number of combinations of axes, none of which is made."""
+    return math.prod(
+        scene_options.count(values) if key == "scene_options" else len(values) for key, values in axes.items()
+    )
+
+
+def _product(axes: dict[str, Any], bands: bool) -> Iterator[tuple[str, Point]]:
     """Give the label of the numerics, and the point, of each combination of axes; `bands`: cells must halve twice."""
+    if "scene_options" in axes:
+        axes = {**axes, "scene_options": scene_options.along_axes(axes["scene_options"])}
     for combination in itertools.product(*axes.values()):
         label, point = resolve(dict(zip(axes, combination, strict=True)))
         coarsest, left = divmod(point.cells, max(COARSENING.values()))
@@ -238,10 +254,10 @@ def _check_keys(values: dict, known: Collection[str] | None = None) -> None:
         )
 
 
-def _axis(key: str, value: Any) -> list:
-    """Return the values of one key along its axis, checked, without repeats."""
+def _axis(key: str, value: Any) -> Any:
+    """Return the values of one key along its axis, checked, without repeats; scene options as given."""
     if key == "scene_options":
-        return scene_options.along_axes(schema.checked(key, value))
+        return schema.checked(key, value)
     if not (schema.is_axis(key) and isinstance(value, list)):
         return [schema.checked(key, value)]
     if not value:
@@ -250,32 +266,3 @@ def _axis(key: str, value: Any) -> list:
         )
     entries = [schema.checked(key, entry) for entry in value]
     return list(dict.fromkeys(entries))
-
-
-def _chosen_figures(values: dict, points: list[Point]) -> tuple[str, ...]:
-    """Return the names of the figures of a study: those asked for, or all whose runs it has."""
-    chosen = schema.checked("figures", values.get("figures", "auto"))
-    known = catalogue.names("figures")
-    if chosen == "none":
-        return ()
-    if chosen == "auto":
-        return tuple(name for name in known if not _lacking(name, points))
-    for name in chosen:
-        if name not in known:
-            hint = words.closest(name, known)
-            raise ConfigError(
-                f"figures: {words.show(name)} is not allowed; allowed: {', '.join(known) or 'none'}{hint}"
-            )
-        if lack := _lacking(name, points):
-            raise ConfigError(f"figures: {name} needs runs with {lack}, which this study does not have")
-    return tuple(name for name in known if name in chosen)
-
-
-def _lacking(name: str, points: list[Point]) -> str:
-    """Return the first 'key: value' that a figure needs and no point has, or ''."""
-    for key, needed in catalogue.figure(name).needs.items():
-        present = {getattr(point, key) for point in points}
-        for value in needed:
-            if value not in present:
-                return f"{key}: {value}"
-    return ""

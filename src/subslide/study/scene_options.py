@@ -9,8 +9,6 @@ from subslide import scenes
 from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
 
-MOST_COMBINATIONS = 200_000
-
 
 def checked(scene: str, given: dict[str, Any], key: str) -> dict[str, Any]:
     """Return every option of a scene by name, in one number format.
@@ -60,22 +58,41 @@ def checked(scene: str, given: dict[str, Any], key: str) -> dict[str, Any]:
 def along_axes(given: dict[str, Any]) -> list[dict[str, Any]]:
     """Return mappings with one value for each option: the product of those that have a list and may be an axis.
 
+    Parameters
+    ----------
+    given
+        Value or list by option; `count` tells how many mappings that makes.
+
+    Returns
+    -------
+    list of dict
+        Value by option of each.
+
     Raises
     ------
     ConfigError
-        If a list is empty, or there are more than MOST_COMBINATIONS.
+        If a list is empty.
     """
-    lists = {}
-    for name, value in given.items():
-        lists[name] = value if isinstance(value, list) and _is_axis(name) else [value]
-        if not lists[name]:
+    lists = _lists(given)
+    for name, values in lists.items():
+        if not values:
             raise ConfigError(
                 f"scene_options: {name}: [] makes an empty grid; allowed: a value or a list of at least one"
             )
-    count = math.prod(map(len, lists.values()))
-    if count > MOST_COMBINATIONS:
-        raise ConfigError(f"scene_options: {count} combinations; allowed: at most {MOST_COMBINATIONS}")
     return [dict(zip(lists, values, strict=True)) for values in itertools.product(*lists.values())]
+
+
+def count(given: dict[str, Any]) -> int:
+    """Return how many mappings `along_axes` makes of options, at least 1: an empty list is refused there."""
+    return math.prod(max(len(values), 1) for values in _lists(given).values())
+
+
+def _lists(given: dict[str, Any]) -> dict[str, list]:
+    """Return the values along its axis of each option; one where it has no list or may not be an axis."""
+    return {
+        name: value if isinstance(value, list) and _is_axis(name) else [value]
+        for name, value in given.items()
+    }
 
 
 def _is_axis(name: str) -> bool:

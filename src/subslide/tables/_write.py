@@ -7,7 +7,7 @@ from numbers import Integral, Real
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from subslide import tables
+from subslide import checksums, source_hash, tables
 from subslide.files import replacing, write_text
 
 if TYPE_CHECKING:
@@ -51,6 +51,8 @@ def write(name: str, results: "Results") -> list[Path]:
         if len(paths) > 1:
             write_text(paths[1], module.html(rows))
     remove(name, results.folder, but=paths)
+    for path in paths:
+        checksums.seal(path, sources=source_hash("table", name))
     return paths
 
 

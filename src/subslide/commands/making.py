@@ -1,0 +1,61 @@
+"""Verbs that the workflow calls while it makes a study, and `unlock` for the time after a killed one."""
+
+from pathlib import Path
+
+import click
+
+from subslide.commands import cli
+
+
+@cli.command()
+@click.argument("spec")
+@click.option(
+    "--threads", type=click.IntRange(1, 1024), default=1, show_default=True, help="threads of the kernels"
+)
+@click.option(
+    "--ledger", metavar="FILE.json", help="the study's file of this batch, written once its record is whole"
+)
+@click.option("-o", "--output", required=True, metavar="FILE.nc", help="record to write (NetCDF-4)")
+def batch(spec: str, threads: int, ledger: str | None, output: str) -> None:
+    """Solve the points of a batch file, SPEC, into one record with its SHA-256 beside it."""
+    from subslide import jobs
+
+    jobs.check_output(output, inputs=[spec])
+    jobs.set_threads(threads)
+    jobs.batch(spec, threads, output, ledger, click.echo)
+
+
+@cli.command()
+@click.argument("source")
+@click.option("-o", "--output", required=True, metavar="FILE", help="the copy")
+def keep(source: str, output: str) -> None:
+    """Copy a text, SOURCE, whole or not at all, with its SHA-256 beside it."""
+    from subslide import checksums
+    from subslide.files import write_text
+
+    write_text(output, Path(source).read_text(encoding="utf-8"))
+    checksums.seal(output)
+
+
+@cli.command()
+@click.argument("config")
+def unlock(config: str) -> None:
+    """Remove the lock that a killed run of the study CONFIG has left in this folder; refuse if a run is at work."""
+    from subslide.study import locks
+    from subslide.study.config import read_study
+
+    name = read_study(config).name
+    locks.unlock(name, Path("results", name), Path(".snakemake"), lambda line: click.echo(line, err=True))
+
+
+@cli.command()
+@click.argument("results")
+@click.option("--captions", metavar="FOLDER", help="folder of texts, NAME.rst, for tables and figures")
+@click.option("-o", "--output", required=True, metavar="FILE.html", help="page to write")
+def report(results: str, captions: str | None, output: str) -> None:
+    """Write the report of a study: one page with its figures and tables; RESULTS is its folder."""
+    from subslide.files import write_text
+    from subslide.pages import report as page
+    from subslide.results import Results
+
+    write_text(output, page.text(Results(results), Path(captions) if captions else None))

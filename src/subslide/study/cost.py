@@ -1,0 +1,252 @@
+"""What points cost, told before they are solved: seconds on one core, memory, bytes on the disk; and a study's limits.
+
+Measured on columns of 50 to 3,200 cells (docs/design/measured.md). A run to rest is taken to end when friction has
+stopped grains at the paper's range of parameters, 1.8/m in R / sqrt(g H2 (1-r)), where every run that was tried had
+come to rest by 1.6/m (1/m is H2 / (R tan(delta))), and at the solver's cap where nothing brakes it. A run whose step
+collapses is longer than any estimate. Imports no kernels.
+"""
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
+
+from subslide import scenes
+from subslide.keys.schema import ConfigError
+from subslide.points import Point
+from subslide.study import choice
+
+START = 0.005
+"""Seconds of a run of no steps."""
+SECONDS_PER_CELL = {
+    ("axial", 1): 2.5e-8,
+    ("axial", 2): 3.7e-8,
+    ("planar", 1): 4e-8,
+    ("planar", 2): 6.5e-8,
+}
+"""Of one step, by kind of grid and order, on one core with the lean kernels."""
+GENERAL = 2.3
+"""Times as many with the general ones."""
+
+REST, REST_CAP = 1.8, 60.0
+"""Time to rest over 1/m, and the solver's cap on it, both in R / sqrt(g H2 (1-r))."""
+FAR = 1.25
+"""Way of the front over R/m, beyond the radius of its column; none was seen to go further."""
+FASTEST = 2.0
+"""Speed of a front over sqrt(g H2), that of a dam break on a dry bed."""
+BOXES = (1.0, 1.5, 2.25, 3.375)
+"""Widths over the smallest of the boxes that a run may need, one after the other."""
+
+PROCESS = 250e6
+"""Bytes of a process that has loaded its kernels (180e6), with room for one to be compiled."""
+ARRAYS, AXIAL_ARRAYS = 44, 80
+"""Numbers of the working precision that the solver keeps of each cell of the plane, and of a line or radius."""
+SERIES = 11
+"""Numbers of 8 bytes that a sample has."""
+MOST_SAMPLES = 10_000
+"""Samples of a run that a record keeps."""
+COPIES = 4
+"""Of the samples, in memory, while a run is made of them."""
+FIELD_BYTES, KEPT_BYTES = 20, 4
+"""Of each value of a field at a snapshot, in memory and in a record."""
+AS_TABLE = 1.5
+"""Bytes of a sample in tables over those in records."""
+
+
+class Estimate(NamedTuple):
+    """What a study costs.
+
+    Attributes
+    ----------
+    points
+        Number of points that are solved.
+    core_hours
+        Hours on one core.
+    memory
+        Bytes of the process that solves the largest point.
+    disk
+        Bytes of records and tables.
+    """
+
+    points: int
+    core_hours: float
+    memory: float
+    disk: float
+
+    def words(self) -> str:
+        """Return the cost in words: time, memory of a job and disk."""
+        seconds = self.core_hours * 3600
+        units = {"seconds": 1, "minutes": 60, "hours": 3600}
+        unit = max(
+            (name for name in units if seconds >= units[name]), default="seconds", key=units.__getitem__
+        )
+        return (
+            f"about {_rounded(max(seconds / units[unit], 1))} core-{unit}, {_rounded(self.memory / 1e6)} MB a job,"
+            f" {_rounded(max(self.disk / 1e6, 1))} MB of records and tables"
+        )
+
+
+class _Size(NamedTuple):
+    """Cells of each box that a point is solved in, one after the other, those of a row of the last, and steps."""
+
+    cells: list[float]
+    row: float
+    steps: float
+    planar: bool
+
+
+def estimate(points: Iterable[Point]) -> Estimate:
+    """Return what points cost together, in some 10 us for each.
+
+    Parameters
+    ----------
+    points
+        Points, such as all that a study solves.
+
+    Returns
+    -------
+    Estimate
+        Sums, and the memory of the largest.
+    """
+    count, time, most, kept = 0, 0.0, 0.0, 0.0
+    for point in points:
+        size = _size(point)
+        count += 1
+        time += _seconds(point, size)
+        most = max(most, _memory(point, size))
+        kept += _disk(point, size) + AS_TABLE * 8 * SERIES * min(size.steps, MOST_SAMPLES)
+    return Estimate(count, time / 3600, most, kept)
+
+
+def check(points: Iterable[Point], limits: Mapping[str, float], what: str) -> None:
+    """Check that points cost no more than is allowed.
+
+    Parameters
+    ----------
+    points
+        Points that are to be solved.
+    limits
+        Value of `max_core_hours`, `max_memory` and `max_disk`.
+    what
+        What messages call the points, such as "the study".
+
+    Raises
+    ------
+    ConfigError
+        If they cost more: one line that names the key which allows it.
+    """
+    cost = estimate(points)
+    for key, needed, unit in (
+        ("max_core_hours", cost.core_hours, "core-hours"),
+        ("max_memory", cost.memory / 1e9, "GB of memory a job"),
+        ("max_disk", cost.disk / 1e9, "GB on the disk"),
+    ):
+        if needed > limits[key]:
+            raise ConfigError(
+                f"{what} needs about {_rounded(needed)} {unit}; allowed: up to {key}: {limits[key]:g} (the key, or"
+                f" --{key.replace('_', '-')} of run, allows more)"
+            )
+
+
+def seconds(point: Point) -> float:
+    """Return the estimated seconds of a run on one core."""
+    return _seconds(point, _size(point))
+
+
+def memory(point: Point) -> float:
+    """Return the most bytes that a process which solves a point needs, its results once included."""
+    return _memory(point, _size(point))
+
+
+def disk(point: Point) -> float:
+    """Return the estimated bytes of a run in a record."""
+    return _disk(point, _size(point))
+
+
+def _size(point: Point) -> _Size:
+    """Return how large the grids of a point are, and how many steps it takes."""
+    geometry = choice.of(point).geometry
+    planar = geometry in ("quarter", "plane")
+    end = _end(point)
+    half = point.half_cells
+    reach = _reach(point, end)
+    wide = 2 if geometry in ("line", "plane") else 1
+    boxes = [width for n, width in enumerate(BOXES) if n == 0 or BOXES[n - 1] * point.half_box < reach]
+    rows = [wide * width * half for width in boxes]
+    # a step is limited by the fastest wave along each axis, sqrt(H1 + H2) scaled
+    steps = end * math.sqrt(point.scaled_level) / (point.cfl * point.scaled_dx) * (1 + planar)
+    return _Size([row**2 if planar else row for row in rows], rows[-1], steps + 1, planar)
+
+
+def _end(point: Point) -> float:
+    """Return the scaled time at which a run is taken to end."""
+    if point.t_end is not None:
+        return point.t_end / point.time_scale
+    cap = REST_CAP / math.sqrt(1 - point.r)
+    last = (
+        max((t for t in point.profile_times if t <= cap * point.time_scale), default=0.0) / point.time_scale
+    )
+    brake = _brake(point)
+    return min(max(REST / brake / math.sqrt(1 - point.r), last), cap) if brake else cap
+
+
+def _brake(point: Point) -> float:
+    """Return the least scaled deceleration by friction of grains that move; 0 if they may move for ever."""
+    if point.as_printed == "friction" or not point.friction_in_viscosity:
+        return 0.0
+    angle = min(point.delta, point.delta_2) if point.friction == "pouliquen" else point.delta
+    return math.tan(math.radians(angle)) / point.a_2
+
+
+def _reach(point: Point, end: float) -> float:
+    """Return how far from the axis, over R, grains may go in a box that grows; 0 if it does not grow."""
+    if point.boundary != "open":
+        return 0.0
+    if point.scene == "cylinder":
+        start = 1.0
+    elif point.scene == "ellipse":
+        ratio = scenes.options(point)["elongation"]
+        start = math.sqrt(max(ratio, 1 / ratio))
+    elif point.scene == "columns":
+        options = scenes.options(point)
+        start = 1 + math.hypot(options["x"], options["y"]) + options["distance"] / 2
+    else:
+        return math.inf
+    brake = _brake(point)
+    return start + min(FAR / brake if brake else math.inf, FASTEST * end)
+
+
+def _seconds(point: Point, size: _Size) -> float:
+    """Return the seconds of a point of a size."""
+    kind = "planar" if size.planar else "axial"
+    slower = GENERAL if choice.of(point).general else 1
+    return START + SECONDS_PER_CELL[kind, point.order] * slower * sum(size.cells) * size.steps
+
+
+def _memory(point: Point, size: _Size) -> float:
+    """Return the bytes of a process that solves a point of a size."""
+    real = 4 if point.dtype == "float32" else 8
+    arrays = (ARRAYS if size.planar else AXIAL_ARRAYS) * real * size.cells[-1]
+    fields = 2 * FIELD_BYTES * size.cells[-1] * _snapshots(point) if point.fields else 0
+    return (
+        PROCESS
+        + arrays
+        + fields
+        + COPIES * 8 * SERIES * size.steps
+        + 8 * 3 * 4 * size.row * _snapshots(point)
+    )
+
+
+def _disk(point: Point, size: _Size) -> float:
+    """Return the bytes in a record of a point of a size."""
+    fields = 2 * KEPT_BYTES * size.cells[-1] if point.fields else 0
+    return 8 * SERIES * min(size.steps, MOST_SAMPLES) + _snapshots(point) * (8 * 3 * size.row + fields)
+
+
+def _snapshots(point: Point) -> int:
+    """Return the number of snapshots, the end of the run among them."""
+    return 1 + len(point.profile_times)
+
+
+def _rounded(number: float) -> str:
+    """Return a number to three digits, without an exponent and with commas."""
+    return f"{float(f'{number:.3g}'):,g}" if number < 1e6 else f"{float(f'{number:.3g}'):,.0f}"

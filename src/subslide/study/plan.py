@@ -1,0 +1,201 @@
+"""The plan of a study: which batch solves which point, from what its folder holds. Nothing is written here.
+
+The ledger of a study is the folder ``batches``: one file for each batch that was solved, ``NNNN.json``, or
+``NNNNpK.json`` for what a job had solved when it was stopped, with whole points. A job writes it after its record, so
+what was planned and never solved leaves no trace, and is planned anew. A batch keeps its name, and its record if that
+is whole, was made by these sources and from this batch; else it is solved again for those of its points that are still
+asked for.
+"""
+
+import json
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+from subslide import checksums, source_hash
+from subslide.checksums import text_hash
+from subslide.files import RecordError
+from subslide.points import Point, to_dict
+from subslide.study.batches import MOST_BATCH_BYTES, spec_text, split
+from subslide.study.config import Study
+
+NAME = re.compile(r"(\d{4,})(p\d+)?")
+"""Names of batches: numbers, and the parts of those that were stopped."""
+
+
+WHOLE = ("", False)
+"""State of a record that is as its batch asks."""
+
+OUTDATED = "were made by other sources"
+"""Fault of a whole record that is not of these sources."""
+
+
+class Batch(NamedTuple):
+    """One batch of a plan.
+
+    Attributes
+    ----------
+    name
+        Its name.
+    points
+        Points of the study that it holds.
+    digest
+        Hash of the text that states it.
+    text
+        That text if the batch is to be solved, else ''.
+    fault
+        Why it is to be solved though the ledger has it, or ''.
+    damaged
+        Whether it has a record whose bytes have changed.
+    """
+
+    name: str
+    points: tuple[Point, ...]
+    digest: str
+    text: str = ""
+    fault: str = ""
+    damaged: bool = False
+
+
+class Plan(NamedTuple):
+    """Batches that hold a study's points, by name, and what points.json is to hold."""
+
+    batches: dict[str, Batch]
+    points_text: str
+
+    @property
+    def faults(self) -> list[str]:
+        """Lines on batches that are solved again: those of damaged or missing records, and how many are outdated."""
+        again = [batch for batch in self.batches.values() if batch.fault]
+        lines = [
+            f"{batch.fault}: batch {batch.name} is solved again" for batch in again if batch.fault != OUTDATED
+        ]
+        outdated = sum(batch.fault == OUTDATED for batch in again)
+        return lines + [f"{outdated} batches {OUTDATED}: they are solved again"] * (outdated > 0)
+
+
+def record_path(folder: Path, name: str) -> Path:
+    """Return the path of the record of a batch.
+
+    Parameters
+    ----------
+    folder
+        Folder of the study.
+    name
+        Name of the batch.
+
+    Returns
+    -------
+    Path
+        Where the record is, or will be.
+    """
+    return folder / "records" / f"{name}.nc"
+
+
+def plan(study: Study, folder: Path) -> Plan:
+    """Return the plan of a study.
+
+    Parameters
+    ----------
+    study
+        The study.
+    folder
+        Its folder of results, which may be missing.
+
+    Returns
+    -------
+    Plan
+        Its batches: those whose records are whole, those to solve again, and those to solve.
+    """
+    asked = {point.id: point for point in study.solved}
+    stated = _stated(folder, asked)
+    states = {name: _state(record_path(folder, name), stated[name].digest) for name in stated}
+    owner: dict[str, str] = {}
+    for name in sorted(stated, key=lambda name: (states[name] != WHOLE, name)):
+        for id_ in stated[name].ids:
+            owner.setdefault(id_, name)
+    batches = {}
+    for name, entry in stated.items():
+        points = tuple(asked[id_] for id_ in entry.ids if owner[id_] == name)
+        if points and states[name] == WHOLE:
+            batches[name] = Batch(name, points, entry.digest)
+        elif points:
+            batches[name] = _to_solve(name, points, *states[name])
+    new = [point for point in asked.values() if point.id not in owner]
+    last = max((int(path.stem.partition("p")[0]) for path in _files(folder)), default=0)
+    for number, unsolved in enumerate(split(new), last + 1):
+        batches[f"{number:04d}"] = _to_solve(f"{number:04d}", tuple(unsolved))
+    owner |= {point.id: batch.name for batch in batches.values() for point in batch.points}
+    return Plan(dict(sorted(batches.items())), _index(study, owner))
+
+
+class _Entry(NamedTuple):
+    """One file of the ledger: the ids that are asked for, in order, and the hash of its bytes."""
+
+    ids: list[str]
+    digest: str
+
+
+def _to_solve(name: str, points: tuple[Point, ...], fault: str = "", damaged: bool = False) -> Batch:
+    """Return a batch that is to be solved."""
+    text = spec_text(points)
+    return Batch(name, points, text_hash(text), text, fault, damaged)
+
+
+def _files(folder: Path) -> list[Path]:
+    """Return the files of the ledger; backups and whatever else lies beside them are none."""
+    home = folder / "batches"
+    entries = home.iterdir() if home.is_dir() else ()
+    return sorted(path for path in entries if path.suffix == ".json" and NAME.fullmatch(path.stem))
+
+
+def _stated(folder: Path, asked: dict[str, Point]) -> dict[str, _Entry]:
+    """Return what each file of the ledger states, by name.
+
+    A file that cannot be read, or states other values of a point than its id stands for, counts as not there: its
+    points come anew.
+    """
+    entries = {}
+    for path in _files(folder):
+        try:
+            if not path.is_file() or path.stat().st_size > MOST_BATCH_BYTES:
+                continue
+            text = path.read_text(encoding="utf-8")
+            rows = {row["id"]: row for row in json.loads(text)["points"]}
+            ids = [id_ for id_ in rows if id_ in asked]
+            if all(rows[id_] == {"id": id_, **to_dict(asked[id_])} for id_ in ids):
+                entries[path.stem] = _Entry(ids, text_hash(text))
+        except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+            continue
+    return entries
+
+
+def _state(record: Path, digest: str) -> tuple[str, bool]:
+    """Return why a record does not hold what its batch states, by these sources, and whether its bytes changed."""
+    try:
+        notes = checksums.verify(record)
+    except RecordError as error:
+        return str(error), record.is_file()
+    if notes.get("batch") != digest:
+        return f"{record} was not made from this batch", False
+    return (OUTDATED, False) if notes.get("sources") != source_hash() else WHOLE
+
+
+def _index(study: Study, owner: dict[str, str]) -> str:
+    """Return the text of points.json: the runs in the order of the tables and, apart, the companions for bands.
+
+    A companion states the id of its run (`of`) and its role; a point that is companion of two runs is there twice.
+    """
+    index: dict[str, object] = {
+        "study": study.name,
+        "points": [
+            {"id": point.id, "batch": owner[point.id], "numerics": label, **to_dict(point)}
+            for label, point in study.runs
+        ],
+    }
+    if study.bands:
+        index["companions"] = [
+            {"id": point.id, "of": run.id, "role": role, "batch": owner[point.id], **to_dict(point)}
+            for run, role, point in study.companions
+        ]
+    return json.dumps(index, indent=1, allow_nan=False) + "\n"

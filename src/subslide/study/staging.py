@@ -1,0 +1,229 @@
+"""What planning hands to Snakemake and to its jobs, in a folder of a study within `.snakemake`.
+
+Planning happens whenever the Snakefile is read, for a dry run too, so it writes nowhere else. Texts are named by their
+content and never change: a job has the plan of the run that started it, whatever is planned meanwhile. Whether a file
+is out of date is not for its time to tell, since folders are copied and clocks are set; so each job has a small input,
+its stamp: very old while what the job made is whole, and newer than that where it has to be made again.
+"""
+
+import contextlib
+import json
+import math
+import os
+import time
+from collections.abc import Iterable
+from pathlib import Path
+from typing import NamedTuple
+
+from subslide import checksums
+from subslide.files import RecordError, write_text
+from subslide.study import cost
+from subslide.study.plan import Batch, Plan, record_path
+
+LONG_AGO = 1
+"""Time (s since 1970) of the stamp of what is whole."""
+
+
+class Needs(NamedTuple):
+    """What a job may need: memory (MB) and time (minutes)."""
+
+    mem_mb: int
+    runtime: int
+
+
+class Staged(NamedTuple):
+    """A plan as jobs know it.
+
+    Attributes
+    ----------
+    home
+        The study's folder within `.snakemake`.
+    key
+        Name of the plan among those staged.
+    specs
+        Path of the text of each batch, by its name.
+    needs
+        What the job of each batch may need, by the batch's name.
+    points_file
+        Path of the text of points.json.
+    damaged
+        Names of the batches whose records are damaged.
+    """
+
+    home: Path
+    key: str
+    specs: dict[str, Path]
+    needs: dict[str, Needs]
+    points_file: Path
+    damaged: tuple[str, ...] = ()
+
+
+def stage(plan: Plan, home: Path) -> Staged:
+    """Write a plan below a folder within `.snakemake`, and return it as jobs know it.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+    home
+        The study's folder within `.snakemake`, made if need be.
+
+    Returns
+    -------
+    Staged
+        Paths of its texts; those of batches that are solved are only names.
+    """
+    home.mkdir(parents=True, exist_ok=True)
+    specs = {}
+    for name, batch in plan.batches.items():
+        specs[name] = home / f"batch-{batch.digest}.json"
+        if batch.text:
+            _write(specs[name], batch.text)
+    points_file = home / f"points-{checksums.text_hash(plan.points_text)}.json"
+    _write(points_file, plan.points_text)
+    needs = {name: needs_of(batch) for name, batch in plan.batches.items()}
+    paths = {name: str(path) for name, path in specs.items()}
+    table = json.dumps({"specs": paths, "needs": needs, "points": str(points_file)})
+    key = checksums.text_hash(table)
+    _write(home / f"plan-{key}.json", table)
+    damaged = tuple(name for name, batch in plan.batches.items() if batch.damaged)
+    return Staged(home, key, specs, needs, points_file, damaged)
+
+
+def staged(home: Path, key: str) -> Staged:
+    """Return a plan that another process has staged.
+
+    Parameters
+    ----------
+    home
+        The study's folder within `.snakemake`.
+    key
+        Key of the plan.
+
+    Returns
+    -------
+    Staged
+        The plan as the other process has it, but for damage, which is that process's to mend.
+    """
+    table = json.loads((home / f"plan-{key}.json").read_text(encoding="utf-8"))
+    specs = {name: Path(path) for name, path in table["specs"].items()}
+    needs = {name: Needs(*values) for name, values in table["needs"].items()}
+    return Staged(home, key, specs, needs, Path(table["points"]))
+
+
+def needs_of(batch: Batch) -> Needs:
+    """Return what the job of a batch may need: its runs are kept until all are solved; kernels may need compiling."""
+    memory = max(map(cost.memory, batch.points)) + sum(map(cost.disk, batch.points))
+    minutes = sum(map(cost.seconds, batch.points)) / 60
+    return Needs(max(500, math.ceil(memory / 1e6)), math.ceil(10 + 2 * minutes))
+
+
+def stamp(home: Path, name: str, outputs: Iterable[Path], whole: bool) -> Path:
+    """Return the stamp of a job, set so that Snakemake starts the job if its outputs are there and not whole.
+
+    Parameters
+    ----------
+    home
+        The study's folder within `.snakemake`.
+    name
+        Name of the stamp.
+    outputs
+        What the job makes.
+    whole
+        Whether that is as it should be.
+
+    Returns
+    -------
+    Path
+        The stamp.
+    """
+    path = home / name
+    times = [output.stat().st_mtime for output in outputs if output.exists()]
+    if times and not whole:
+        # Snakemake takes an input with the content of last time for the same, whatever its time
+        path.write_text(f"{time.time_ns()}\n")
+        if max(times) >= time.time():
+            os.utime(path, (max(times) + 1,) * 2)
+    elif not path.exists() or path.stat().st_mtime != LONG_AGO:
+        path.write_text("whole\n")
+        os.utime(path, (LONG_AGO, LONG_AGO))
+    return path
+
+
+def are_whole(paths: Iterable[Path], **notes: str) -> bool:
+    """Return whether files are as they were written.
+
+    Parameters
+    ----------
+    paths
+        The files.
+    notes
+        What they must have been made from, see `checksums.seal`.
+
+    Returns
+    -------
+    bool
+        False also if one is missing.
+    """
+    try:
+        return all(notes.items() <= checksums.verify(path).items() for path in paths)
+    except RecordError:
+        return False
+
+
+def holds(path: Path, text: str) -> bool:
+    """Return whether a file holds a text, with the checksum of it beside.
+
+    Parameters
+    ----------
+    path
+        The file.
+    text
+        What it should hold.
+
+    Returns
+    -------
+    bool
+        False also if it is missing.
+    """
+    try:
+        checksums.verify(path)
+        return path.read_text(encoding="utf-8") == text
+    except (RecordError, OSError, ValueError):
+        return False
+
+
+def tidy(folder: Path, now: Staged) -> None:
+    """Set a study's folder in order before jobs start.
+
+    What a killed job left half-written and what older plans staged is removed, damaged records are set aside, and times
+    in the future, which would let a job start at every call, are set to now.
+
+    Parameters
+    ----------
+    folder
+        The study's folder of results.
+    now
+        The plan whose jobs start.
+    """
+    for name in now.damaged:
+        with contextlib.suppress(OSError):
+            aside = folder / "damaged" / f"{name}.nc"
+            aside.parent.mkdir(exist_ok=True)
+            os.replace(record_path(folder, name), aside)
+    needed = {now.points_file, now.home / f"plan-{now.key}.json", *now.specs.values()}
+    old = {path for path in now.home.glob("*-*.json") if path not in needed}
+    for path in (*folder.rglob("*"), *now.home.iterdir()):
+        with contextlib.suppress(OSError):
+            if path in old or (path.name.startswith(".") and path.name.endswith(".tmp")):
+                path.unlink()
+            elif path.stat().st_mtime > time.time():
+                os.utime(path)
+
+
+def _write(path: Path, text: str) -> None:
+    """Write a text that its name stands for, unless the file holds it."""
+    with contextlib.suppress(OSError, UnicodeDecodeError):
+        if path.read_text(encoding="utf-8") == text:
+            return
+    write_text(path, text)

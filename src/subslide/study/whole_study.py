@@ -1,0 +1,86 @@
+"""The keys that say something of a whole study, and nothing of one run: its name, figures, bands and limits."""
+
+from typing import Any
+
+from subslide import catalogue
+from subslide.keys import schema, words
+from subslide.keys.schema import ConfigError
+from subslide.points import Point
+
+
+def values_of(values: dict, names: dict[str, str] | None = None) -> dict[str, Any]:
+    """Return the checked values of the keys of a whole study but its cases, with defaults for what is left out.
+
+    Parameters
+    ----------
+    values
+        Value by key, as a file states them.
+    names
+        What messages call a key, where that is not its name.
+
+    Returns
+    -------
+    dict
+        Value by key; `study` is left out if the file has none.
+
+    Raises
+    ------
+    ConfigError
+        If a value is not allowed, or there is no figure of a name: one line.
+    """
+    whole = {}
+    for key in schema.with_role("study"):
+        about = schema.properties()[key]
+        if key != "cases" and (key in values or "default" in about):
+            whole[key] = schema.checked(
+                key, values.get(key, about.get("default")), (names or {}).get(key, key)
+            )
+    known = catalogue.names("figures")
+    for name in whole["figures"] if isinstance(whole["figures"], list) else ():
+        if name not in known:
+            key, hint = (names or {}).get("figures", "figures"), words.closest(name, known)
+            raise ConfigError(
+                f"{key}: {words.show(name)} is not allowed; allowed: {', '.join(known) or 'none'}{hint}"
+            )
+    return whole
+
+
+def figures_of(chosen: Any, points: list[Point]) -> tuple[str, ...]:
+    """Return the names of the figures of a study, in one order.
+
+    Parameters
+    ----------
+    chosen
+        Checked value of `figures`.
+    points
+        Runs of the study.
+
+    Returns
+    -------
+    tuple of str
+        Those asked for, or all whose runs it has.
+
+    Raises
+    ------
+    ConfigError
+        If a figure needs runs that the study does not have.
+    """
+    known = catalogue.names("figures")
+    if chosen == "none":
+        return ()
+    if chosen == "auto":
+        return tuple(name for name in known if not _lacking(name, points))
+    for name in chosen:
+        if lack := _lacking(name, points):
+            raise ConfigError(f"figures: {name} needs runs with {lack}, which this study does not have")
+    return tuple(name for name in known if name in chosen)
+
+
+def _lacking(name: str, points: list[Point]) -> str:
+    """Return the first 'key: value' that a figure needs and no point has, or ''."""
+    for key, needed in catalogue.figure(name).needs.items():
+        present = {getattr(point, key) for point in points}
+        for value in needed:
+            if value not in present:
+                return f"{key}: {value}"
+    return ""
