@@ -79,7 +79,7 @@ def plain() -> list[tuple[list[str], tuple[str, ...]]]:
         )
         lines.append((["table", "runs", folder], ("points.json", folder[:20], "RESULTS")))
     lines += [
-        (["batch", spec, "-o", "o.nc"], (spec[:20] or "batch file",))
+        (["batch", spec, "-o", "o.nc"], (spec[:20] or "SPEC",))
         for spec in ("nope.json", "", ".", "\0", "x" * 5000)
     ]
     lines.append((["docs"], ("config/README.md", "docs/", "root of the repository")))

@@ -26,14 +26,12 @@ cases:
   - {numerics: [paper, resolved], a_H: [1, 2], r: [0, 0.4]}
   - {scene: dam_break, model: line, boundary: wall, delta: 0, r: 0}
 """
-RECORDS_READ_BY = (
-    ("table", "runs"),
-    ("table", "series"),
-    ("table", "bands"),
-    ("table", "timing"),
-    ("tables",),
-    ("errors",),
-)
+RECORDS_READ_BY = {
+    "points": (("table", "runs"), ("table", "series"), ("table", "timing")),
+    "companions": (("table", "bands"), ("tables",)),
+}
+"""Verbs by the part of points.json whose records they read; the latter read both."""
+
 TABLES_READ_BY = {
     "runs": (("claims",), ("table", "claims"), ("figure", "fig06_fronts"), ("figure", "fig08_max_eta")),
     "series": (
@@ -48,24 +46,27 @@ TABLES_READ_BY = {
 
 
 def finish(folder: Path) -> Path:
-    """Solve the study in a folder, write its tables, and return its results."""
+    """Solve the study in a folder by the commands of its jobs, and return its results."""
     from subslide import catalogue, tables
     from subslide.__main__ import main
-    from subslide.study import batches, config
+    from subslide.study import config, plan, staging
+
+    def command(*words: object) -> None:
+        assert main([str(word) for word in words]) == 0
 
     (folder / "study.yaml").write_text(STUDY)
     study, results = config.read_study(folder / "study.yaml"), folder / "t"
-    plan = batches.plan(study, results, extend=True)
-    (results / "records").mkdir()
-    for name in plan.batches:
-        assert (
-            main(["batch", str(results / f"batches/{name}.json"), "-o", str(results / f"records/{name}.nc")])
-            == 0
-        )
+    staged = staging.stage(plan.plan(study, results), folder / "staged")
+    for name in ("records", "batches"):
+        (results / name).mkdir(parents=True)
+    for name, spec in staged.specs.items():
+        ledger = results / f"batches/{name}.json"
+        command("batch", spec, "-o", results / f"records/{name}.nc", "--ledger", ledger)
+    command("keep", staged.points_file, "-o", results / "points.json")
     wanted = [name for name in catalogue.names("tables") if not tables.load(name).needs(study)]
     while wanted:
         name = next(one for one in wanted if not set(catalogue.table(one).reads) & set(wanted))
-        assert main(["table", name, str(results)]) == 0
+        command("table", name, results)
         wanted.remove(name)
     return results
 
@@ -160,8 +161,8 @@ class Copies:
 
         others = {
             "missing": (lambda path: None, LACKING),
-            "folder": (lambda path: path.mkdir(), FAULT),
-            "pipe": (os.mkfifo, FAULT),
+            "folder": (lambda path: path.mkdir(), LACKING),
+            "pipe": (os.mkfifo, LACKING),
             "dangling": (lambda path: path.symlink_to("nowhere"), LACKING),
         }
         return [self.edited(name, file, verb, remake(make), ends) for name, (make, ends) in others.items()]
