@@ -78,6 +78,9 @@ NOT_A_NUMBER = (
     "-5e-324",
 )
 TINY = ("5e-324", "1.0e-310", "1e-40", "1.0e-200")
+KEYS = ("c.yaml", "detla", "cases", "<<", "nope", "2024-01-01", "a\\x1b[31mb", "a\\x00b")
+"""What a message on a whole file names: it, or the key that is wrong."""
+
 DIVISORS = ("a_2", "radius", "g", "cfl")
 """Keys that are divided by, or multiply a scale: their tiny values make no run."""
 
@@ -270,7 +273,7 @@ def yaml_files(rng: random.Random, count: int) -> list[Input]:
         "marks": b"---\n" + plain + b"...\n",
     }
     inputs = [
-        Input(name, ["check", "c.yaml"], BAD, ("c.yaml",), _file("c.yaml", content))
+        Input(name, ["check", "c.yaml"], BAD, KEYS, _file("c.yaml", content))
         for name, content in whole.items()
     ]
     inputs += [
@@ -278,7 +281,7 @@ def yaml_files(rng: random.Random, count: int) -> list[Input]:
             f"{name} by run",
             ["run", "--config", "c.yaml", "-o", "o.nc"],
             BAD,
-            ("c.yaml",),
+            KEYS,
             _file("c.yaml", content),
         )
         for name, content in rng.sample(sorted(whole.items()), 12)

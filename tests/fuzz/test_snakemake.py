@@ -24,16 +24,21 @@ REFUSED = {
     "octal": (PLAIN.replace("20", "0200"), "cells"),
     "base 60": (PLAIN + "delta: 1:20\n", "delta"),
     "not a number": (PLAIN + "r: .nan\n", "r"),
-    "empty": ("", "t.yaml"),
-    "a list": ("- study: t\n", "t.yaml"),
-    "not YAML": (PLAIN + "r: [0\n", "t.yaml"),
-    "a tag": (PLAIN + "r: !!python/object/apply:os.system ['touch marker']\n", "t.yaml"),
     "a long name": (PLAIN.replace("study: t", f"study: {'t' * 300}"), "study"),
     "millions of points": (f"{PLAIN}r: {MANY[:4000]}\ndelta: {MANY[::2]}\n", "points"),
-    "578 days": (PLAIN.replace("0.05", "1e9"), "t_end"),
+    "a pipe as raster": (PLAIN + "scene: raster\nscene_options: {file: pipe.nc}\n", "pipe.nc"),
+    "578 days": (PLAIN.replace("0.05", "1e9"), "max_memory"),
     "an escape": (PLAIN + '"a\\e[31mb": 1\n', "a\\x1b[31mb"),
 }  # fmt: skip
 """Configurations that are refused, and what the line names."""
+
+NOT_READ = {
+    "empty": "",
+    "a list": "- study: t\n",
+    "not YAML": PLAIN + "r: [0\n",
+    "a tag": PLAIN + "r: !!python/object/apply:os.system ['touch marker']\n",
+}
+"""Files that Snakemake itself refuses, in its words, before it reads ours."""
 
 LOOKS = ("-n", "--list-rules", "--dag", "--summary", "--lint", "--report")
 """Commands that only look; the last has nothing to report on."""
@@ -89,22 +94,35 @@ def said(text: str) -> list[str]:
 def test_a_bad_configuration_is_one_line_in_snakemakes_frame(name, project):
     text, names = REFUSED[name]
     (project.folder / "t.yaml").write_text(text)
-    status, printed, changed = project.snakemake()
+    os.mkfifo(project.folder / "pipe.nc")
+    assert_refused(project.snakemake(), names)
+
+
+@pytest.mark.parametrize(("override", "names"), [("a_H=x", "a_H"), ("detla=3", "detla")])
+def test_a_bad_override_is_one_line_too(override, names, project):
+    (project.folder / "t.yaml").write_text(PLAIN)
+    assert_refused(project.snakemake("--config", override), names)
+
+
+def assert_refused(done: tuple[int, str, dict[str, str]], names: str) -> None:
+    """Fail unless a study was refused in one line that names something, and nothing was written."""
+    status, printed, changed = done
     assert status != 0
     assert "Traceback" not in printed
     assert changed == {}
-    (line,) = said(printed)
-    assert len(line) <= LONGEST + len(PREFIX)
-    assert line.isprintable()
-    assert names in line
+    lines = said(printed)
+    assert len(lines) == 1, printed
+    assert len(lines[0]) <= LONGEST + len(PREFIX)
+    assert lines[0].isprintable()
+    assert names in lines[0]
 
 
-def test_a_pipe_as_configuration_is_refused(project):
-    os.mkfifo(project.folder / "t.yaml")
+@pytest.mark.parametrize("name", NOT_READ)
+def test_what_snakemake_does_not_read_leaves_nothing(name, project):
+    (project.folder / "t.yaml").write_text(NOT_READ[name])
     status, printed, changed = project.snakemake()
     assert status != 0
-    assert "Traceback" not in printed
-    assert "t.yaml" in printed
+    assert "Config file" in printed
     assert changed == {}
 
 
