@@ -36,7 +36,7 @@ def plain() -> list[tuple[list[str], tuple[str, ...]]]:
     takes = {
         "check": "CONFIG",
         "batch": "SPEC",
-        "warm": "KERNEL",
+        "warm": "MODEL:DTYPE",
         "figure": "NAME",
         "table": "NAME",
         "run": "output",
@@ -79,7 +79,7 @@ def plain() -> list[tuple[list[str], tuple[str, ...]]]:
         )
         lines.append((["table", "runs", folder], ("points.json", folder[:20], "RESULTS")))
     lines += [
-        (["batch", spec, "-o", "o.nc"], (spec[:20] or "SPEC",))
+        (["batch", spec, "-o", "o.nc"], (spec[:20] or "SPEC", "\\x00"))
         for spec in ("nope.json", "", ".", "\0", "x" * 5000)
     ]
     lines.append((["docs"], ("config/README.md", "docs/", "root of the repository")))
@@ -158,7 +158,7 @@ def options(rng: random.Random, count: int, source: Path) -> list[Input]:
             ("figure", "name", "NAME"),
             study,
         )
-    for verb in ("work-precision", "atlas"):
+    for verb in ("work-precision",):
         add(f"{verb} of a study without", [verb, "t"], ("t", "stability", "sweep"), study)
     for page in ("nope.md", ".", "", "no/p.md"):
         add(f"verify: page {page!r}", ["verify", "t", "-o", page], ("output",), study)

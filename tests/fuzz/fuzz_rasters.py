@@ -63,7 +63,6 @@ WRONG = {
     "one dimension": {"values": {"h2": CENTRES * 0}, "dims": {"h2": ("x",)}},
     "three dimensions": {"values": {"h2": DEPTH[None]}, "dims": {"h2": ("t", "y", "x")}},
     "x of two dimensions": {"values": {"x": DEPTH}, "dims": {"x": ("y", "x")}},
-    "scalar x": {"values": {"x": 1.0}, "dims": {"x": ()}},
     "other dimensions": {"dims": {"h2": ("b", "a")}},
     "km": {"attrs": {"h2": {"units": "km"}}},
     "degrees": {"attrs": {"x": {"units": "degrees_east"}}},
