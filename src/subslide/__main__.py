@@ -1,5 +1,6 @@
 """The command line, `subslide`: its verbs, and the exit status and one line that each way to fail has."""
 
+import contextlib
 import importlib
 import io
 import os
@@ -52,11 +53,8 @@ def main(arguments: list[str] | None = None) -> int:
         ):  # a fault of some file, which click takes for the end of input
             raise abort.__cause__ from None
         return _complain("interrupted; nothing was written", SIGNALLED + signal.SIGINT)
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
     except OSError as error:
-        return _complain(f"{error.filename or 'output'}: {error.strerror or error}", FAULT)
+        return _complain(f"{error.filename or 'standard output'}: {error.strerror or error}", FAULT)
 
 
 def _complain(message: str, code: int) -> int:
@@ -65,15 +63,43 @@ def _complain(message: str, code: int) -> int:
     return code
 
 
+class Diagnostics(io.TextIOWrapper):
+    """Standard error, whose faults are nobody's to hear of: a line that cannot be written is lost."""
+
+    def write(self, text: str) -> int:
+        """Write a text if that is possible, and return its length."""
+        with contextlib.suppress(OSError):
+            super().write(text)
+        return len(text)
+
+
+def _open_streams() -> None:
+    """Put /dev/null in place of closed streams, lest a file get their numbers, and print what a locale lacks as '?'."""
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # it gets the lowest number that is free
+    if sys.stdout is None:
+        sys.stdout = os.fdopen(1, "w", encoding="utf-8", closefd=False)
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="replace")
+    encoding = sys.stderr.encoding if sys.stderr else "utf-8"
+    raw = os.fdopen(2, "wb", buffering=0, closefd=False)
+    sys.stderr = Diagnostics(raw, encoding=encoding, errors="replace", write_through=True)
+
+
 def entry() -> None:
     """End the process at once with the status of `main`: tearing down compiled code takes longer than a radial run."""
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="replace")  # a locale may lack the letters of a line
+    _open_streams()
     interrupts.listen()
     status = main()
-    sys.stdout.flush()
-    sys.stderr.flush()
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:
+        pass
+    except OSError as error:
+        status = _complain(f"standard output: {error.strerror}", FAULT)
     os._exit(status)
 
 

@@ -40,10 +40,16 @@ def source_hash(part: str = "record", name: str = "") -> str:
     digest = hashlib.sha256()
     for path in sorted(PACKAGE.rglob("*.py")):
         source = path.relative_to(PACKAGE)
-        if _belongs(source, part, name):
+        if _belongs(source, part, name) and is_module(source):
             body = path.read_bytes()
             digest.update(f"{source.as_posix()} {len(body)}\n".encode() + body)
     return digest.hexdigest()[:12]
+
+
+def is_module(source: Path) -> bool:
+    """Return whether a path within the package can be imported: not what editors and notebooks leave beside modules."""
+    names = source.with_suffix("").parts
+    return all(name.isidentifier() for name in names) and (PACKAGE / source).is_file()
 
 
 @functools.cache

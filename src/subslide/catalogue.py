@@ -9,7 +9,7 @@ import functools
 from pathlib import Path
 from typing import Any, NamedTuple
 
-PACKAGE = Path(__file__).resolve().parent
+from subslide._sources import PACKAGE, is_module
 
 
 class Figure(NamedTuple):
@@ -42,7 +42,8 @@ def names(room: str) -> list[str]:
     list of str
         Names of the files without '.py', sorted.
     """
-    return sorted(path.stem for path in (PACKAGE / room).glob("[a-z]*.py"))
+    paths = (PACKAGE / room).glob("[a-z]*.py")
+    return sorted(path.stem for path in paths if is_module(path.relative_to(PACKAGE)))
 
 
 @functools.cache
@@ -81,6 +82,19 @@ def literals(room: str, name: str) -> dict[str, Any]:
         except ValueError:
             continue
     return constants
+
+
+@functools.cache
+def options_that_read(scene: str) -> frozenset[str]:
+    """Return the names of a scene's options that are paths of files it reads."""
+    stated = _constants("scenes", scene).get("OPTIONS") if scene in names("scenes") else None
+    entries = zip(stated.keys, stated.values, strict=True) if isinstance(stated, ast.Dict) else ()
+    return frozenset(
+        str(name.value)
+        for name, entry in entries
+        if isinstance(name, ast.Constant) and isinstance(entry, ast.Dict)
+        if any(isinstance(word, ast.Constant) and word.value == "reads" for word in entry.keys)
+    )
 
 
 def columns(name: str) -> list[str]:

@@ -38,9 +38,10 @@ def replacing(path: Path | str) -> Iterator[Path]:
     """Give a temporary path beside `path` to a block, and move it to `path` once the block has ended well.
 
     The data are on the disk before the name changes; after an error neither file is left behind. A link is written
-    through: it stays, and what it points to is replaced.
+    through: it stays, and what it points to is replaced. An OSError names the file, and a full disk where the block
+    raised another error because of it.
     """
-    path = Path(os.path.realpath(path))
+    given, path = os.fspath(path), Path(os.path.realpath(path))
     temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex[:8]}.tmp")
     unfinished.add(temporary)
     try:
@@ -48,6 +49,13 @@ def replacing(path: Path | str) -> Iterator[Path]:
         _sync(temporary)
         os.replace(temporary, path)
         _sync(path.parent)
+    except Exception as error:
+        cause = _fault_of_disk(temporary)
+        if cause is None and isinstance(error, OSError) and error.filename in (None, str(temporary)):
+            cause = error
+        if cause is None:
+            raise
+        raise OSError(cause.errno, f"cannot be written: {cause.strerror or cause}", given) from None
     finally:
         temporary.unlink(missing_ok=True)
         unfinished.discard(temporary)
@@ -71,6 +79,17 @@ def file_hash(path: Path | str) -> str:
     """Return the SHA-256 (hex) of a file's bytes, as `sha256sum` prints it."""
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def _fault_of_disk(temporary: Path) -> OSError | None:
+    """Return why no more can be written to a file that is given up, if so: libraries lose the system's word for it."""
+    try:
+        with open(temporary, "ab") as file:
+            file.write(bytes(1 << 20))
+        _sync(temporary)
+    except OSError as error:
+        return error
+    return None
 
 
 def _sync(path: Path) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, make_dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from subslide import catalogue
 from subslide.keys import schema
 from subslide.keys.entries import ENTRIES
 
@@ -202,8 +203,14 @@ class Point(Values):
 
 
 def canonical(point: Point) -> str:
-    """Return the text of a point in one number format and one order of keys; equal points give equal texts."""
-    return json.dumps(to_dict(point), separators=(",", ":"), sort_keys=True)
+    """Return the text of a point in one number format and one order of keys; equal points give equal texts.
+
+    A file that its scene reads is known by its content, which is one of the options, and not by its path.
+    """
+    values = to_dict(point)
+    for name in catalogue.options_that_read(point.scene):
+        values["scene_options"].pop(name, None)
+    return json.dumps(values, separators=(",", ":"), sort_keys=True)
 
 
 def to_dict(point: Point) -> dict[str, Any]:

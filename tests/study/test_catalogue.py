@@ -1,11 +1,13 @@
 """Plug-ins keep their contract: tables say what they are, what they read and hold, and load nothing heavy."""
 
+import os
+import shutil
 import subprocess
 import sys
 
 import pytest
 
-from subslide import catalogue, tables
+from subslide import _sources, catalogue, tables
 from subslide._sources import imported, source_hash
 from subslide.points import RUN_KEYS
 from subslide.study.config import make_study
@@ -117,3 +119,23 @@ def test_parts_of_the_sources_follow_the_rooms(tmp_path, monkeypatch):
 
 def test_the_top_of_the_package_stays_small():
     assert len(list(catalogue.PACKAGE.glob("*.py"))) <= 12
+
+
+def test_what_editors_leave_beside_modules_counts_for_nothing(tmp_path, monkeypatch):
+    package = tmp_path / "subslide"
+    shutil.copytree(_sources.PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.setattr(_sources, "PACKAGE", package)
+    monkeypatch.setattr(catalogue, "PACKAGE", package)
+    parts = [("solver",), ("record",), ("table", "runs"), ("figure", "fig06_fronts")]
+    before = [source_hash.__wrapped__(*part) for part in parts], catalogue.names("tables")
+    for room in ("kernels", "tables", "figures", ".ipynb_checkpoints"):
+        (package / room).mkdir(exist_ok=True)
+        (package / room / ".#runs.py").symlink_to("me@host.1:2")
+        (package / room / "gone.py").symlink_to("nowhere")
+        (package / room / "._runs.py").write_bytes(b"\0\5\x16\7")
+        (package / room / "runs-checkpoint.py").write_text("x = 1")
+        (package / room / "folder.py").mkdir()
+        os.mkfifo(package / room / "pipe.py")
+    assert ([source_hash.__wrapped__(*part) for part in parts], catalogue.names("tables")) == before
+    (package / "kernels" / "extra.py").write_text("")
+    assert source_hash.__wrapped__("solver") != before[0][0]

@@ -3,10 +3,12 @@
 import json
 import os
 
+import netCDF4
+import numpy as np
 import pytest
 
 import subslide
-from subslide import checksums
+from subslide import catalogue, checksums, scenes
 from subslide.points import Point
 from subslide.study import config, plan, staging
 
@@ -198,3 +200,44 @@ def test_notes_of_a_record_name_its_batch_and_sources(solved):
         "sources": subslide.source_hash(),
     }
     assert json.loads(text)["points"][0]["id"] == Point(model="radial", cells=40, a_H=1.0).id
+
+
+def test_the_catalogue_knows_the_options_that_are_paths():
+    for name in scenes.NAMES:
+        marked = {option for option, about in scenes.load(name).OPTIONS.items() if about.get("reads")}
+        assert catalogue.options_that_read(name) == marked
+    assert catalogue.options_that_read("raster") == {"file"}
+
+
+def test_a_raster_is_known_by_its_content(tmp_path, monkeypatch, solve_study, make_run):
+    """However its path is spelt, and wherever it was moved; another content is another point."""
+    monkeypatch.chdir(tmp_path)
+
+    def rasters(*files):
+        cases = [{"scene_options": {"file": file}} for file in files]
+        return config.make_study({"study": "t", "scene": "raster", "cells": 40, "cases": cases})
+
+    write_raster("one.nc", 0.01)
+    write_raster("two.nc", 0.02)
+    assert len(rasters("one.nc", "./one.nc", str(tmp_path / "one.nc")).points) == 1
+    solve_study(
+        rasters("one.nc", "two.nc"), tmp_path / "t", lambda points: [make_run(point) for point in points]
+    )
+    os.mkdir("elsewhere")
+    os.rename("one.nc", "elsewhere/1.nc")
+    moved = rasters("elsewhere/1.nc", "two.nc")
+    assert not [batch for batch in plan.plan(moved, tmp_path / "t").batches.values() if batch.text]
+    write_raster("two.nc", 0.03)
+    (tmp_path / "t/records/0001.nc").unlink()
+    planned = plan.plan(rasters("elsewhere/1.nc", "two.nc"), tmp_path / "t")
+    files = {name: [dict(p.scene_options)["file"] for p in b.points] for name, b in planned.batches.items()}
+    assert files == {"0001": ["elsewhere/1.nc"], "0002": ["two.nc"]}
+
+
+def write_raster(path, depth):
+    """Write a raster of an even depth."""
+    with netCDF4.Dataset(path, "w") as data:
+        for key in ("y", "x"):
+            data.createDimension(key, 8)
+            data.createVariable(key, "f8", (key,))[:] = np.linspace(-0.1, 0.1, 8)
+        data.createVariable("h2", "f8", ("y", "x"))[:] = depth

@@ -3,6 +3,7 @@
 import errno
 import fcntl
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -13,8 +14,13 @@ import time
 import numba
 import pytest
 
-from subslide import _cache
+from subslide import _cache, files
+from subslide.__main__ import main
 from subslide.kernels import cache
+from subslide.records.netcdf import read
+
+SHARED = dict(os.environ)
+"""Environment with the cache of kernels that all tests share."""
 
 LONG = ("run", "--cells", "8000", "--model", "radial", "--t-end", "1000", "-o", "x.nc")
 
@@ -139,6 +145,58 @@ def test_code_of_sources_that_have_changed_is_not_kept(tmp_path, monkeypatch):
     assert not kept(tmp_path)
 
 
+QUICK = f"{sys.executable} -m subslide run --model radial --cells 20 --t-end 0.01 -o x.nc"
+
+
+@pytest.mark.parametrize(
+    ("command", "status", "said"),
+    [
+        (f"{QUICK} >&-", 0, ""),
+        (f"{QUICK} <&- >&- 2>&-", 0, ""),
+        (f"{QUICK} >/dev/full", 1, "subslide: standard output: No space left on device\n"),
+        (f"{QUICK} --cfl 1.5 >/dev/null 2>/dev/full", 0, ""),
+        (f"set -o pipefail; {QUICK} | true", 0, ""),
+    ],
+)
+def test_closed_and_full_streams_leave_the_record_whole(command, status, said):
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, env=SHARED)
+    assert (done.returncode, done.stdout, done.stderr) == (status, "", said)
+    assert "x_front" in read("x.nc")[0]
+
+
+def test_a_full_disk_gets_one_line_and_leaves_the_file_from_before(capsys):
+    command = QUICK.split()[3:]
+    assert main(command) == 0
+    before = os.stat("x.nc")
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    for most in (0, 100, 5000):
+        capsys.readouterr()
+        resource.setrlimit(resource.RLIMIT_FSIZE, (most, hard))
+        try:
+            assert main(command) == 1
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+        assert capsys.readouterr() == ("", "subslide: x.nc: cannot be written: File too large\n")
+        assert os.listdir() == ["x.nc"]
+        assert os.stat("x.nc") == before
+
+
+def test_an_error_in_a_file_that_the_disk_did_not_make_is_its_own():
+    with pytest.raises(ValueError, match="mine"), files.replacing("x"):
+        raise ValueError("mine")
+    with pytest.raises(FileNotFoundError, match="absent"), files.replacing("x"):
+        os.stat("absent")
+    assert os.listdir() == []
+
+
+def test_a_layer_of_threads_that_is_none_gets_one_line():
+    environment = {**SHARED, "NUMBA_THREADING_LAYER": "nope"}
+    done = subprocess.run(QUICK.split(), capture_output=True, text=True, env=environment)
+    assert done.returncode == 2
+    assert done.stderr.startswith("subslide: NUMBA_THREADING_LAYER: nope cannot be used")
+    assert done.stderr.count("\n") == 1
+
+
 def until(true, seconds=10.0):
     """Wait until something holds."""
     give_up = time.monotonic() + seconds
@@ -162,9 +220,8 @@ def started(script):
 
 @pytest.mark.parametrize(("number", "status"), [("SIGINT", 130), ("SIGTERM", 143), ("SIGHUP", 129)])
 def test_a_signal_ends_a_run_soon_with_one_line(number, status):
-    environment = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
     command = [sys.executable, "-m", "subslide", *LONG]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=environment)
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=SHARED)
     time.sleep(1.5)
     process.send_signal(getattr(signal, number))
     sent = time.monotonic()
@@ -183,6 +240,7 @@ def test_a_signal_ends_native_code_and_removes_what_is_half_written():
             print("here", flush=True)
             hashlib.pbkdf2_hmac("sha256", b"", b"", 10**9)
     """)
+    time.sleep(0.5)  # it has printed, and must reach the native code
     assert len(os.listdir()) == 1
     process.send_signal(signal.SIGTERM)
     _, said = process.communicate(timeout=5)

@@ -3,7 +3,9 @@
 Start-up is most of a radial run's time, so what a verb needs is imported when it is called.
 """
 
+import os
 import signal
+import sys
 
 import click
 
@@ -34,11 +36,14 @@ class Verbs(click.Group):
         return super().resolve_command(ctx, args)
 
     def invoke(self, ctx: click.Context) -> object:
-        """Return what the called command returns; Stopped after Ctrl-C, to which click would add an empty line."""
+        """Return what the called command returns, 0 if nobody reads on; Stopped after Ctrl-C, where click says more."""
         try:
             return super().invoke(ctx)
         except KeyboardInterrupt:
             raise Stopped(signal.SIGINT) from None
+        except BrokenPipeError:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return 0
 
 
 @click.group(cls=Verbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})

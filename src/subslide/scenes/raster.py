@@ -2,23 +2,26 @@
 
 The file has a variable h2(y, x) and coordinates x and y, all in m, with equal steps; (0, 0) is the middle of the box,
 and there are no grains beyond the raster. Scales are still R and H2 = a_2 R, and the water stands (1 + a_H) H2 deep.
-The file's SHA-256 becomes one of the options, so that a run's id follows what the file holds.
+The file's SHA-256 becomes one of the options, so that a run's id follows what the file holds. Packed and unsigned
+values are read as CF says; missing ones (masked, out of the valid range, not finite) are refused. By `conservative` a
+pixel is flat, so cells finer than pixels see stairs, whose steps slump: choose `bilinear` for them.
 """
 
 import functools
-import hashlib
-import os
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from subslide.keys.entries import Entry
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
-from subslide.scenes import Grid, State, options, still_water
+from subslide.scenes import Grid, State, _raster_file, options, still_water
 
-if TYPE_CHECKING:
-    import netCDF4
+EVEN = 1e-4
+"""Part of a step by which a coordinate may be off an even grid, beside what its type rounds."""
+
+FINER = 0.9
+"""Cell size over that of a pixel below which a cell sees the steps between pixels."""
 
 OPTIONS: dict[str, Entry] = {
     "file": {
@@ -27,7 +30,7 @@ OPTIONS: dict[str, Entry] = {
         "minLength": 1,
         "axis": False,
         "reads": True,
-        "allowed": "the path of a NetCDF file",
+        "allowed": _raster_file.ALLOWED,
     },
     "method": {
         "description": "what a cell takes: conservative, its share of the raster's pixels, or bilinear, the raster at"
@@ -53,10 +56,10 @@ def symmetry(point: Point) -> str:
 
 def complete(chosen: dict[str, Any]) -> dict[str, Any]:
     """Return the options with the file's SHA-256; a ConfigError if it cannot be read, or is not the one given."""
-    sha256 = content(chosen["file"])
+    sha256 = _raster_file.content(chosen["file"])
     if chosen["sha256"] not in ("", sha256):
         raise ConfigError(
-            f"file: {chosen['file']} has changed: its SHA-256 is not {chosen['sha256'][:12]}..."
+            f"file: {_raster_file.shown(chosen['file'])} has changed: its SHA-256 is not {chosen['sha256'][:12]}..."
         )
     return {**chosen, "sha256": sha256}
 
@@ -65,10 +68,10 @@ def check(point: Point) -> None:
     """Raise a ConfigError unless the file is there, unchanged, and holds grains under the water and in the box."""
     chosen = complete(options(point))
     raster = read(chosen["file"], chosen["sha256"])
-    name = f"scene_options: file: {chosen['file']}"
+    name = f"scene_options: file: {_raster_file.shown(chosen['file'])}"
     level = point.level
     highest = float(raster.h2.max())
-    if highest > level * (1 + 1e-9):
+    if highest > level * (1 + 1e-9) + raster.rounding:
         raise ConfigError(
             f"{name}: grains of {highest:.6g} m stand above the water's level; allowed: to {level:.6g} m"
         )
@@ -89,13 +92,29 @@ def initial(grid: Grid, point: Point) -> State:
     return still_water(np.minimum(h2, point.scaled_level), point.scaled_level)
 
 
-class Raster:
-    """Depths h2 (ny, nx) at the centres x (nx) and y (ny) of pixels, in m, in increasing order."""
+def has_stairs(point: Point) -> bool:
+    """Return whether cells are finer than the pixels that they take their shares of, so that they see their steps."""
+    chosen = options(point)
+    if chosen["method"] != "conservative":
+        return False
+    try:
+        raster = read(chosen["file"], chosen["sha256"])
+    except ConfigError:  # a finished study may be read without it
+        return False
+    return bool(point.dx < FINER * min(raster.x[1] - raster.x[0], raster.y[1] - raster.y[0]))
 
-    def __init__(self, x: np.ndarray, y: np.ndarray, h2: np.ndarray):
+
+class Raster:
+    """Depths h2 (ny, nx) at the centres x (nx) and y (ny) of pixels, in m, in increasing order.
+
+    `rounding` is how far the type in the file may have rounded h2, in m.
+    """
+
+    def __init__(self, x: np.ndarray, y: np.ndarray, h2: np.ndarray, rounding: float):
         """Put the raster in increasing order."""
         self.x, self.y = np.sort(x), np.sort(y)
         self.h2 = h2[np.argsort(y)][:, np.argsort(x)]
+        self.rounding = rounding
 
     def used(self) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
         """Return (coordinates, whether there are grains) along x and along y."""
@@ -116,63 +135,23 @@ def hats(edges: np.ndarray, centres: np.ndarray) -> np.ndarray:
     return np.maximum(0.0, 1.0 - np.abs(middles[:, None] - centres) / (centres[1] - centres[0]))
 
 
-def content(path: str) -> str:
-    """Return the SHA-256 (hex) of a file's content."""
-    try:
-        about = os.stat(path)
-        return _content(path, about.st_mtime_ns, about.st_size)
-    except FileNotFoundError:
-        raise ConfigError(
-            f"file: {path}: there is no such file; allowed: {OPTIONS['file']['allowed']}"
-        ) from None
-    except OSError as error:
-        raise ConfigError(f"file: {path} cannot be read: {error.strerror}") from None
-
-
-@functools.lru_cache(maxsize=64)
-def _content(path: str, changed: int, size: int) -> str:
-    """Return the hash of a file, anew once its time or size has changed."""
-    with open(path, "rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
-
-
 @functools.lru_cache(maxsize=4)
 def read(path: str, sha256: str) -> Raster:
     """Return the `Raster` of a file with that content; a ConfigError if it is not as the scene wants it."""
-    import netCDF4
-
-    name = f"scene_options: file: {path}"
-    try:
-        with netCDF4.Dataset(path) as data:
-            variables = {key: _variable(data, key, name) for key in ("x", "y", "h2")}
-            if data["h2"].dimensions != data["y"].dimensions + data["x"].dimensions:
-                raise ConfigError(f"{name}: h2{data['h2'].dimensions} is not allowed; allowed: h2(y, x)")
-    except OSError:
-        raise ConfigError(f"{name}: not a NetCDF file; allowed: {OPTIONS['file']['allowed']}") from None
-    for key in ("x", "y"):
-        steps = np.diff(variables[key])
-        if not (steps.size and steps[0] and np.allclose(steps, steps[0], rtol=1e-4, atol=0)):
-            raise ConfigError(
-                f"{name}: {key} has unequal steps; allowed: two coordinates or more, with equal steps"
-            )
-    if variables["h2"].min() < 0:
-        raise ConfigError(f"{name}: h2 is {variables['h2'].min():.6g} m somewhere; allowed: depths from 0")
-    return Raster(**variables)
+    name = f"scene_options: file: {_raster_file.shown(path)}"
+    parts = _raster_file.read(path, sha256)
+    lowest = float(parts["h2"].values.min())
+    if lowest < 0:
+        raise ConfigError(f"{name}: h2 is {lowest:.6g} m somewhere; allowed: depths from 0")
+    x, y = (_even(parts[key], f"{name}: {key}") for key in ("x", "y"))
+    return Raster(x, y, *parts["h2"])
 
 
-def _variable(data: "netCDF4.Dataset", key: str, name: str) -> np.ndarray:
-    """Return a variable in m as finite float64."""
-    if key not in data.variables:
-        known = ", ".join(data.variables) or "none"
-        raise ConfigError(f"{name}: there is no variable {key}; allowed: h2(y, x), x and y; found: {known}")
-    variable = data[key]
-    unit = getattr(variable, "units", "m")
-    if unit not in ("m", "metre", "meter", "metres", "meters"):
-        raise ConfigError(f"{name}: {key} is in {unit}; allowed: m")
-    values = variable[...]
-    if values.dtype.kind not in "fiu" or values.ndim != (2 if key == "h2" else 1) or not values.size:
-        raise ConfigError(f"{name}: {key} is not an array of numbers; allowed: h2(y, x), x and y")
-    values = np.ma.filled(values.astype(float), np.nan)
-    if not np.isfinite(values).all():
-        raise ConfigError(f"{name}: {key} has missing or infinite values; allowed: finite numbers")
-    return values
+def _even(coordinate: _raster_file.Values, name: str) -> np.ndarray:
+    """Return the even grid that a coordinate was stored from; a ConfigError if its steps are not equal."""
+    values, rounding = coordinate
+    even = np.linspace(values[0], values[-1], len(values))
+    step = abs(even[1] - even[0]) if len(even) > 1 else 0.0
+    if not step or np.abs(values - even).max() > EVEN * step + 2 * rounding or 4 * rounding > step:
+        raise ConfigError(f"{name} has unequal steps; allowed: two coordinates or more, with equal steps")
+    return even

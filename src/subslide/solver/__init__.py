@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable
 
-import numba
 import numpy as np
 
 from subslide.kernels import clock as k
@@ -11,7 +10,7 @@ from subslide.models.build import build
 from subslide.naming import STATUSES
 from subslide.points import Point
 from subslide.solver.answer import Snapshot, describe, make_run, room_for_waves
-from subslide.solver.loop import advance_to, warm_up
+from subslide.solver.loop import advance_to, start_threads, warm_up
 from subslide.solver.run import Run
 from subslide.study.checking import check_point
 
@@ -59,7 +58,7 @@ def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | 
         If the point is none that a study could ask for: one line.
     """
     check_point(point)
-    numba.set_num_threads(max(1, min(threads, numba.config.NUMBA_NUM_THREADS)))
+    start_threads(threads)
     box = point.half_cells
     while True:
         run = attempt(point, box, progress)

@@ -1,16 +1,19 @@
 """The time loop, in segments from one snapshot to the next."""
 
 import math
+import os
 import sys
 import threading
 import time
 from collections.abc import Callable
 
+import numba
 import numpy as np
 
 from subslide.kernels import cache, samples
 from subslide.kernels import clock as k
 from subslide.kernels.arrays import Track
+from subslide.keys.schema import ConfigError
 from subslide.models.model import Model
 from subslide.naming import FRONT_THRESHOLDS
 
@@ -38,6 +41,17 @@ def thresholds(model: Model) -> tuple[float, ...]:
     """Return the front's thresholds in the working precision."""
     real = type(model.level)
     return tuple(real(value) for value in FRONT_THRESHOLDS)
+
+
+def start_threads(threads: int) -> None:
+    """Make this many threads solve, as far as numba has them; ConfigError if its threading layer cannot be used."""
+    try:
+        numba.set_num_threads(max(1, min(threads, numba.config.NUMBA_NUM_THREADS)))
+    except (ImportError, RuntimeError, ValueError):
+        layer = os.environ.get("NUMBA_THREADING_LAYER", "default")
+        raise ConfigError(
+            f"NUMBA_THREADING_LAYER: {layer} cannot be used; allowed: default, workqueue, or omp or tbb if installed"
+        ) from None
 
 
 def warm_up(model: Model) -> None:

@@ -25,7 +25,7 @@ class Region(NamedTuple):
     example, instead
         Keys of a run in it that shows the harm, and keys that mend that run.
     seen
-        Study, and its part, where that was seen.
+        Study, and its part, where that was seen; '' if only its example shows it.
     """
 
     name: str
@@ -168,6 +168,22 @@ REGIONS = (
         },
         {"scheme": "ifcph"},
         "accuracy, dam breaks",
+    ),
+    Region(
+        "stairs",
+        lambda point: point.scene == "raster" and scenes.load("raster").has_stairs(point),
+        "cells finer than the raster's pixels see these as stairs, whose steps slump and make waves, also where the"
+        " slope is at rest",
+        "scene_options: method: bilinear, or fewer cells",
+        {
+            "scene": "raster",
+            "scene_options": {"file": "cone.nc"},
+            "cells": 240,
+            "t_end": 0.3,
+            "snapshot_times": [0],
+        },
+        {"scene_options": {"file": "cone.nc", "method": "bilinear"}},
+        "",
     ),
     Region(
         "sliding layers",

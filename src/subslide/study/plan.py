@@ -15,7 +15,7 @@ from typing import NamedTuple
 from subslide import checksums, source_hash
 from subslide.checksums import text_hash
 from subslide.files import RecordError
-from subslide.points import Point, to_dict
+from subslide.points import RUN_KEYS, Point, from_dict, to_dict
 from subslide.study.batches import MOST_BATCH_BYTES, spec_text, split
 from subslide.study.config import Study
 
@@ -163,11 +163,17 @@ def _stated(folder: Path, asked: dict[str, Point]) -> dict[str, _Entry]:
             text = path.read_text(encoding="utf-8")
             rows = {row["id"]: row for row in json.loads(text)["points"]}
             ids = [id_ for id_ in rows if id_ in asked]
-            if all(rows[id_] == {"id": id_, **to_dict(asked[id_])} for id_ in ids):
+            if all(_states(rows[id_], asked[id_]) for id_ in ids):
                 entries[path.stem] = _Entry(ids, text_hash(text))
         except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
             continue
     return entries
+
+
+def _states(row: dict, point: Point) -> bool:
+    """Return whether a row of the ledger states a point; the path of a file that it reads may be spelt otherwise."""
+    values = {key: value for key, value in row.items() if key != "id"}
+    return values == to_dict(point) or (set(values) == set(RUN_KEYS) and from_dict(values).id == point.id)
 
 
 def _state(record: Path, digest: str) -> tuple[str, bool]:

@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -103,6 +104,8 @@ def _is_axis(name: str) -> bool:
 def of_text(text: str, value_of_text: Callable[[str], Any]) -> dict[str, Any]:
     """Return the options that a text such as 'elongation=2,angle=30' states.
 
+    A comma parts options only before a NAME=, so that `file=a,b.nc` is one option; a value with a comma is text.
+
     Parameters
     ----------
     text
@@ -121,7 +124,7 @@ def of_text(text: str, value_of_text: Callable[[str], Any]) -> dict[str, Any]:
         If a part is not NAME=VALUE, or a name comes twice.
     """
     options = {}
-    for part in filter(None, text.split(",")):
+    for part in filter(None, re.split(r",(?=\s*\w*\s*=|\s*$)", text)):
         name, sign, value = (piece.strip() for piece in part.partition("="))
         if not (name and sign and value):
             raise ConfigError(
@@ -129,5 +132,5 @@ def of_text(text: str, value_of_text: Callable[[str], Any]) -> dict[str, Any]:
             )
         if name in options:
             raise ConfigError(f"--scene-options: {name}: given twice; allowed: each option once")
-        options[name] = value_of_text(value)
+        options[name] = value if "," in value else value_of_text(value)
     return options
