@@ -223,9 +223,8 @@ def warm(kernels: tuple[str, ...]) -> Iterator[str]:
     from subslide import solver
 
     for kernel in kernels:
-        model, *others = kernel.split(":")
-        dtype, general = (*others, "", "")[:2]
-        if general not in ("", "general"):
+        model, dtype, general, *more = (*kernel.split(":"), "", "")
+        if general not in ("", "general") or any(more) or kernel.endswith(":"):
             raise ConfigError(f"kernel: {kernel} is not allowed; allowed: MODEL:DTYPE or MODEL:DTYPE:general")
         values = {
             "model": schema.checked("model", model),

@@ -12,6 +12,7 @@ import numpy as np
 
 from subslide import catalogue, checksums
 from subslide.files import RecordError
+from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS, Point, from_dict
 
@@ -80,20 +81,26 @@ class Results:
         path = self.folder / "points.json"
         if not path.is_file():
             raise ConfigError(f"{path}: there is no such file; allowed: the folder of a study that was run")
+        fault = self._fault(path)
         try:
             index = json.loads(path.read_text(encoding="utf-8"))
-            rows = {
-                key: [_row(row) for row in index[key]] for key in ("points", "companions") if key in index
-            }
+            sections = {key: index[key] for key in ("points", "companions") if key in index}
+            rows = {key: [_row(row, check=bool(fault)) for row in rows] for key, rows in sections.items()}
             if not rows["points"]:
                 raise ValueError("there are no points")
-            if checksums.beside(path).exists():
-                checksums.verify(path)
-        except RecordError as error:
-            raise RecordError(f"{error}; {AGAIN}") from None
-        except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
-            fault = " ".join(str(error).split()) or type(error).__name__
-            raise RecordError(f"{path} is damaged or not of this version ({fault}); {AGAIN}") from None
+        except (
+            OSError,
+            ValueError,
+            KeyError,
+            TypeError,
+            AttributeError,
+            ArithmeticError,
+            RecursionError,
+        ) as error:
+            what = words.cut(" ".join(str(error).split()) or type(error).__name__)
+            raise RecordError(f"{path} is damaged or not of this version ({what}); {AGAIN}") from None
+        if fault and checksums.beside(path).exists():
+            raise RecordError(f"{fault}; {AGAIN}")
         return rows
 
     @overload
@@ -170,12 +177,18 @@ class Results:
         """Return the path of the record of a batch."""
         return self.folder / "records" / f"{batch}.nc"
 
-    def _verify(self, path: Path) -> None:
-        """Raise a RecordError unless a file of the study is as it was written; it is not opened before."""
+    def _fault(self, path: Path) -> str:
+        """Return why a file of the study is not as it was written, '' if it is; it is not opened as what it is."""
         try:
             checksums.verify(path)
         except RecordError as error:
-            raise RecordError(f"{error}; {AGAIN}") from None
+            return str(error)
+        return ""
+
+    def _verify(self, path: Path) -> None:
+        """Raise a RecordError unless a file of the study is as it was written."""
+        if fault := self._fault(path):
+            raise RecordError(f"{fault}; {AGAIN}")
 
     def table(self, name: str) -> "pd.DataFrame":
         """Return a table of the study by its name, as it was last written.
@@ -294,10 +307,10 @@ def trimmed(data: "xr.Dataset", name: str) -> "xr.Dataset":
     return one
 
 
-def _row(row: dict) -> dict[str, Any]:
-    """Return a row of points.json with its point; ValueError if the values are not those of its id."""
-    point = from_dict({key: row[key] for key in RUN_KEYS})
-    if point.id != row["id"]:
+def _row(row: dict, check: bool) -> dict[str, Any]:
+    """Return a row of points.json with its point; ValueError if its values are not allowed, or not those of its id."""
+    point = from_dict({key: schema.checked(key, row[key]) if check else row[key] for key in RUN_KEYS})
+    if check and point.id != row["id"]:
         raise ValueError(f"the values of {row['id']} belong to {point.id}")
     return {**row, "point": point}
 

@@ -167,7 +167,7 @@ def test_a_new_table_is_one_file(project):
 def test_mistakes_are_told_before_anything_is_written(project):
     project.configure(STUDY.replace("r: 0.4", "r: 1.5").replace("small", "other"))
     text = project.snakemake(check=False)
-    assert "r: 1.5 is not allowed; allowed: a number from 0 to below 1" in text
+    assert "r: 1.5 is not allowed; allowed: a number from 0 to 0.99999" in text
     assert "Traceback" not in text
     assert not (project.folder / "results/other").exists()
 

@@ -20,9 +20,12 @@ class Count(click.IntRange):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return the number that a text stands for; a complaint of click if it is none, or out of range."""
         try:
-            return super().convert(plain.value_of(value) if isinstance(value, str) else value, param, ctx)
+            number = plain.value_of(value) if isinstance(value, str) else value
         except ValueError as error:
             self.fail(f"{words.cut(value)} {error}", param, ctx)
+        if not isinstance(number, int):
+            self.fail(f"{words.show(value)} is not a whole number", param, ctx)
+        return super().convert(number, param, ctx)
 
 
 threads_option = click.option(

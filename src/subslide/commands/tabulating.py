@@ -1,10 +1,12 @@
 """Verbs that write the tables of a study: `table` for any of them, and a verb each for some."""
 
+import os
 from pathlib import Path
 
 import click
 
 from subslide.commands import cli
+from subslide.keys import words
 from subslide.keys.schema import ConfigError
 
 MISSED = 1
@@ -41,10 +43,9 @@ def renew(path: str, page: str, folder: str) -> None:
     from subslide.files import write_text
     from subslide.results import Results
 
-    try:
-        text = Path(path).read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise ConfigError(f"--output: {path}: there is no such file; allowed: a page to renew") from None
+    if not os.path.isfile(path):
+        raise ConfigError(f"--output: {words.show(path)}: there is no such file; allowed: a page to renew")
+    text = Path(path).read_text(encoding="utf-8")
     write_text(path, importlib.import_module(f"subslide.pages.{page}").page(text, Results(folder)))
 
 
@@ -97,7 +98,7 @@ def verify(results: str, output: str | None) -> int:
         )
     lines = _orders.lines(rows)
     click.echo(_orders.text(lines))
-    if output:
+    if output is not None:
         renew(output, "verification", results)
     missed = [line for line in lines if line.missed]
     for line in missed:
@@ -131,7 +132,7 @@ def work_precision(results: str, output: tuple[str, ...]) -> None:
 def atlas(results: str, output: str | None) -> None:
     """Write the stability atlas of a study and print how each method did; RESULTS is the study's folder."""
     write("atlas", results)
-    if output:
+    if output is not None:
         renew(output, "stability", results)
 
 

@@ -77,9 +77,9 @@ def series_in_si(model: Model, point: Point, sampled: np.ndarray) -> dict[str, n
     si = Scales(point.radius, point.column_height, point.g, volume, model.copies)
     column = sampled.T
     front = column[samples.FRONT : samples.FRONT + samples.FRONTS]
-    series = {
-        "x_front": np.where(front > 0, front * si.length, np.nan)
-    }  # 0 where no cell reaches the threshold
+    # 0 where no cell beyond the axis reaches the threshold: there is the edge of a dam, or nothing
+    at_axis = choice.of(point).geometry == "line" and column[samples.COLUMN["sediment_volume"]].max() > 0
+    series = {"x_front": np.where((front > 0) | at_axis, front * si.length, np.nan)}
     for name, measured in measures.SERIES.items():
         known = model.settings.layers >= measured.layers
         values = column[samples.COLUMN[name]]

@@ -64,6 +64,10 @@ def read_batch(spec: Path | str) -> list[Point]:
             raise ConfigError(
                 f"{spec}: the values of {words.show(row['id'])} belong to {point.id}; was the file edited?"
             )
+        if point in points:
+            raise ConfigError(
+                f"{spec}: points[{number}]: {point.id} stands there twice; allowed: each point once"
+            )
         points.append(point)
     return points
 

@@ -165,7 +165,7 @@ def _stated(folder: Path, asked: dict[str, Point]) -> dict[str, _Entry]:
             ids = [id_ for id_ in rows if id_ in asked]
             if all(_states(rows[id_], asked[id_]) for id_ in ids):
                 entries[path.stem] = _Entry(ids, text_hash(text))
-        except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        except (OSError, ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):
             continue
     return entries
 
