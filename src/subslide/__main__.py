@@ -1,6 +1,7 @@
 """The command line, `subslide`: its verbs, and the exit status and one line that each way to fail has."""
 
 import contextlib
+import errno
 import importlib
 import io
 import os
@@ -54,6 +55,8 @@ def main(arguments: list[str] | None = None) -> int:
             raise abort.__cause__ from None
         return _complain("interrupted; nothing was written", SIGNALLED + signal.SIGINT)
     except OSError as error:
+        if error.errno in (errno.ENAMETOOLONG, errno.ELOOP):  # no name that a study gives is so
+            return _complain(f"{words.show(error.filename)}: {error.strerror}", BAD_INPUT)
         return _complain(f"{error.filename or 'standard output'}: {error.strerror or error}", FAULT)
 
 

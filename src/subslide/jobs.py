@@ -45,7 +45,7 @@ def point_of(path: str | None, options: dict[str, str]) -> Point:
     ConfigError
         If the file or an option is wrong: one line that names it.
     """
-    values = read_yaml(path) if path else {}
+    values = {} if path is None else read_yaml(path)
     names = {key: f"{path}: {key}" for key in values}
     for key, text in options.items():
         names[key] = "--" + key.replace("_", "-")
@@ -85,26 +85,29 @@ def check_output(path: str, inputs: list[str]) -> None:
         If the path is a folder, an input, or no regular file, names another format, or lies in a folder that is missing
         or cannot be written to.
     """
+    name = f"--output: {words.show(path)}"
     if plain.control(path):
-        raise ConfigError(f"--output: {path} has a control character; allowed: the path of a file")
+        raise ConfigError(f"{name} has a control character; allowed: the path of a file")
     target = Path(os.path.realpath(path))
     folder = target.parent
-    if target.is_dir():
-        raise ConfigError(f"--output: {path} is a folder; allowed: the path of a file")
-    if target.exists() and not target.is_file():
-        raise ConfigError(f"--output: {path} is not a regular file; allowed: the path of a file")
-    if not folder.is_dir():
-        raise ConfigError(f"--output: {path}: the folder {folder} does not exist")
-    if any(target.exists() and target.samefile(other) for other in inputs if os.path.exists(other)):
-        raise ConfigError(f"--output: {path} is the input; allowed: the path of another file")
-    if target.suffix.lower() in OTHER_FORMATS:
-        raise ConfigError(f"--output: {path}: a record is a NetCDF file; allowed: a name that ends in .nc")
-    probe = folder / f".{target.name}.{os.getpid()}.probe"
     try:
+        if target.is_dir() or path.endswith("/"):
+            raise ConfigError(f"{name} is a folder; allowed: the path of a file")
+        if target.is_symlink():
+            raise ConfigError(f"{name} is a link to itself; allowed: the path of a file")
+        if target.exists() and not target.is_file():
+            raise ConfigError(f"{name} is not a regular file; allowed: the path of a file")
+        if not folder.is_dir():
+            raise ConfigError(f"{name}: the folder {words.show(str(folder))} does not exist")
+        if any(target.exists() and target.samefile(other) for other in inputs if os.path.exists(other)):
+            raise ConfigError(f"{name} is the input; allowed: the path of another file")
+        if target.suffix.lower() in OTHER_FORMATS:
+            raise ConfigError(f"{name}: a record is a NetCDF file; allowed: a name that ends in .nc")
+        probe = folder / f".{target.name}.{os.getpid()}.probe"
         probe.touch(exist_ok=False)
         probe.unlink()
     except OSError as error:
-        raise ConfigError(f"--output: {path} cannot be written: {error.strerror}") from None
+        raise ConfigError(f"{name} cannot be written: {error.strerror}") from None
 
 
 def set_threads(threads: int) -> None:

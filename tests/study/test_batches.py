@@ -62,7 +62,7 @@ EDITED = {
     "a list": ([1], "not a batch file"),
     "points that are none": ({"points": [3]}, "points[0]: 3 is no point"),
     "points that are a mapping": ({"points": {"id": 1}}, "a list of points"),
-    "deep nesting": ("[" * 100_000, "RecursionError"),
+    "deep nesting": ("[" * 100_000, "nested too deep"),
     "a huge integer": ('{"points": [' + "1" * 5000 + "]}", "not a batch file"),
     "an unknown kernel": ({"kernels": "../../x"}, "kernels: ../../x"),
     "a kernel that is a list": ({"kernels": []}, "kernels: []"),

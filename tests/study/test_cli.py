@@ -44,6 +44,7 @@ BAD = {
     ("--scene", "x\x1b[31m"): ("--scene: x\\x1b[31m", "control character"),
     ("--scene-options", "angle=030"): ("--scene-options: 030", "several ways"),
     ("--scene-options", "file=a\0b", "--scene", "raster"): ("--scene-options", "a\\x00b"),
+    ("--config", ""): ("'': there is no such file",),
     ("--config", "a\0b"): ("a\\x00b", "null"),
     ("--config", "absent.yaml"): ("absent.yaml", "no such file"),
     ("extra",): ("extra",),

@@ -193,8 +193,7 @@ def test_companions_for_bands_count_as_points():
         ("xi: 1e-30", ("xi: 1e-30", "from 0.001")),
         ("pouliquen_length: 1e-30", ("pouliquen_length: 1e-30", "from 1e-06")),
         ("delta: 89.999", ("delta: 89.999", "from 0 to 89")),
-        ("a_H: 1e-20", ("a_H: 1e-20 is lost beside 1 in float64", "0, or from 1.1e-16")),
-        ("a_H: 1e-9\ndtype: float32", ("a_H: 1e-09 is lost beside 1 in float32", "6e-08")),
+        ("a_H: 1e-9\ndtype: float32", ("a_H: 1e-09 is lost beside 1 in float32", "6e-08", "dtype: float64")),
         ("delta: 1e-40\ndtype: float32", ("delta: 3.1", "no number of float32")),
         (
             "dtype: float32\nscene: columns\nscene_options: {x: 1e-40}",

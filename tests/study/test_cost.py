@@ -38,6 +38,19 @@ def test_runs_take_the_steps_and_boxes_of_their_estimate_or_less(values):
     assert size.row >= len(run.x) - 2
 
 
+def peak(folder):
+    """Most bytes that a process which solves the point of a file has had."""
+    code = (
+        "from subslide.__main__ import main\n"
+        "assert main(['run', '--config', 'p.yaml', '-o', 'x.nc']) == 0\n"
+        "print(next(line for line in open('/proc/self/status') if line.startswith('VmHWM')))"
+    )
+    done = subprocess.run(  # what `wait` tells of a child may be its parent's memory
+        [sys.executable, "-c", code], cwd=folder, capture_output=True, text=True, check=True
+    )
+    return 1024 * int(done.stdout.split("VmHWM:")[1].split()[0])
+
+
 @pytest.mark.parametrize(
     "values", [{}, {"model": "quarter", "cells": 1000}, {"model": "plane", "cells": 500, "fields": True}]
 )
@@ -48,15 +61,7 @@ def test_a_process_keeps_to_its_memory(values, tmp_path):
     (tmp_path / "p.yaml").write_text(
         "\n".join(f"{key}: {str(value).lower()}" for key, value in values.items())
     )
-    code = (
-        "from subslide.__main__ import main\n"
-        "assert main(['run', '--config', 'p.yaml', '-o', 'x.nc']) == 0\n"
-        "print(next(line for line in open('/proc/self/status') if line.startswith('VmHWM')))"
-    )
-    done = subprocess.run(  # what `wait` tells of a child may be its parent's memory
-        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True
-    )
-    used = 1024 * int(done.stdout.split("VmHWM:")[1].split()[0])
+    used = min(peak(tmp_path), peak(tmp_path))  # another process may have made the first one compile
     assert used <= cost.memory(point) <= 1.7 * used
 
 

@@ -12,17 +12,26 @@ import threading
 import time
 
 import numba
+import numpy as np
 import pytest
 
 from subslide import _cache, files
 from subslide.__main__ import main
 from subslide.kernels import cache
+from subslide.points import Point
 from subslide.records.netcdf import read
+from subslide.solver import loop, solve
 
 SHARED = dict(os.environ)
 """Environment with the cache of kernels that all tests share."""
 
 LONG = ("run", "--cells", "8000", "--model", "radial", "--t-end", "1000", "-o", "x.nc")
+
+
+@pytest.fixture(autouse=True, scope="module")
+def compiled():
+    """Kernels of a radius in the cache that all tests share, so that no command has to say that it compiles."""
+    solve(Point(model="radial", cells=20, t_end=0.01))
 
 
 @pytest.fixture(autouse=True)
@@ -275,3 +284,18 @@ def test_a_signal_that_is_ignored_stays_so():
         capture_output=True, text=True,
     )  # fmt: skip
     assert process.stdout == "on\n"
+
+
+def test_short_launches_change_no_bit_and_tell_the_time_reached(monkeypatch):
+    point, times = Point(model="radial", cells=40, t_end=0.1), []
+    whole = solve(point)
+    monkeypatch.setattr(loop, "CHUNK", 8)
+    parts = solve(point, progress=times.append)
+    assert len(times) > 1
+    assert times == sorted(times)
+    assert times[-1] == pytest.approx(point.t_end)
+    assert parts.steps == whole.steps
+    for name in ("time", "h2", "eta", "L_f"):
+        np.testing.assert_array_equal(getattr(parts, name), getattr(whole, name))
+    for name, series in whole.series.items():
+        np.testing.assert_array_equal(parts.series[name], series)

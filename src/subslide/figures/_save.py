@@ -41,6 +41,8 @@ def save(name: str, results: Path, output: Path) -> list[Path]:
         raise ConfigError(
             f"--results: {results} has no tables/runs.csv; allowed: the folder of a finished study"
         )
+    if output.exists() and not output.is_dir():
+        raise ConfigError(f"--output: {output} is a file; allowed: a folder, made if it is not there")
     os.environ["MPLBACKEND"] = "Agg"  # a notebook names one that need not be here, and importing would fail
     import matplotlib
 

@@ -1,6 +1,5 @@
 """Values checked by the entries of their keys, and the lists of keys that follow from the entries."""
 
-import functools
 import json
 import math
 from collections.abc import Callable
@@ -8,6 +7,9 @@ from typing import Any
 
 from subslide.keys.entries import ENTRIES, Entry
 from subslide.keys.words import refusal
+
+_checks: dict[int, tuple[Entry, Callable]] = {}
+"""Compiled check of each entry, by the entry's place in memory."""
 
 
 class ConfigError(ValueError):
@@ -98,18 +100,21 @@ def conform(about: Entry, value: Any, name: str) -> Any:
     try:
         if not _finite(value):
             raise ConfigError
-        _check(json.dumps(about))(value)
+        _check(about)(value)
     except (ConfigError, fastjsonschema.JsonSchemaValueException, OverflowError):
         raise ConfigError(refusal(about, value, name)) from None
     return int(value) if is_integer(about) else value
 
 
-@functools.cache
-def _check(about: str) -> Callable:
-    """Return the function that raises unless its argument satisfies an entry, given as JSON."""
+def _check(about: Entry) -> Callable:
+    """Return the function that raises unless its argument satisfies an entry."""
     import fastjsonschema  # a tenth of the start-up time of jsonschema
 
-    return fastjsonschema.compile(json.loads(about))
+    known, check = _checks.get(id(about), (None, None))
+    if known is not about or check is None:
+        check = fastjsonschema.compile(json.loads(json.dumps(about)))
+        _checks[id(about)] = about, check  # kept with its entry, so that no other has its id
+    return check
 
 
 def _finite(value: Any) -> bool:

@@ -203,6 +203,11 @@ def _check(file: "netCDF4.Dataset", key: str) -> None:
 def _values(file: "netCDF4.Dataset", key: str) -> Values:
     """Return a variable, unpacked, with what its type rounds; ConfigError if a value is missing or not finite."""
     variable = file.variables[key]
+    for name in ("scale_factor", "add_offset"):
+        packing = np.asarray(getattr(variable, name, 0.0))
+        if packing.dtype.kind not in "iuf" or packing.size != 1 or not np.isfinite(packing).all():
+            shown_value = words.show(getattr(variable, name))
+            raise ConfigError(f"{key} has {name}: {shown_value}; allowed: a finite number")
     values = variable[...]
     rounds_to = getattr(values, "dtype", variable.datatype)
     missing = int(np.ma.count_masked(values))

@@ -43,8 +43,12 @@ def read_batch(spec: Path | str) -> list[Point]:
     try:
         batch = json.loads(text)
         rows, kernels = batch["points"], batch.get("kernels")  # which the version before this one stated
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
-        raise ConfigError(f"{spec}: not a batch file ({type(error).__name__}: {error})") from None
+    except KeyError as error:
+        raise ConfigError(f"{spec}: not a batch file: the key {error} is missing") from None
+    except RecursionError:
+        raise ConfigError(f"{spec}: not a batch file: nested too deep") from None
+    except (ValueError, TypeError, AttributeError) as error:
+        raise ConfigError(f"{spec}: not a batch file: {error}") from None
     if not (isinstance(rows, list) and rows):
         raise ConfigError(f"{spec}: points: {words.show(rows)} is not allowed; allowed: a list of points")
     if kernels is not None and kernels not in choice.all_kernels():

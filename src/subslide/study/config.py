@@ -142,7 +142,8 @@ def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
             continue
         if schema.is_axis(key) and isinstance(value, list):
             if len(value) != 1:
-                raise ConfigError(f"{key}: {words.show(value)} has {len(value)} values; a run takes one")
+                shown = f"{names.get(key, key)}: {words.show(value)}"
+                raise ConfigError(f"{shown} has {len(value)} values; allowed: one for one run")
             value = value[0]
         single[key] = schema.checked(key, value, names.get(key, key))
     point = resolve(single, names)[1]

@@ -1,8 +1,8 @@
 """What points cost, told before they are solved: seconds on one core, memory, bytes on the disk; and a study's limits.
 
 Measured on columns of 50 to 3,200 cells (docs/design/measured.md). A run to rest is taken to end when friction has
-stopped grains at the paper's range of parameters, 1.8/m in R / sqrt(g H2 (1-r)), where every run that was tried had
-come to rest by 1.6/m (1/m is H2 / (R tan(delta))), and at the solver's cap where nothing brakes it. A run whose step
+stopped its grains, at 1.8/m in R / sqrt(g H2 (1-r)) with m = tan(delta) R / H2 (91 of 96 columns had come to rest by
+then, the last by 2.5/m), or after its last snapshot, and at the solver's cap where nothing brakes it. A run whose step
 collapses is longer than any estimate. Imports no kernels.
 """
 
@@ -37,7 +37,7 @@ BOXES = (1.0, 1.5, 2.25, 3.375)
 """Widths over the smallest of the boxes that a run may need, one after the other."""
 
 PROCESS = 250e6
-"""Bytes of a process that has loaded its kernels (180e6), with room for one to be compiled."""
+"""Bytes of a process that has loaded its kernels (180e6), and some; compiling them takes up to 1e9 (`jobs.warm`)."""
 ARRAYS, AXIAL_ARRAYS = 44, 80
 """Numbers of the working precision that the solver keeps of each cell of the plane, and of a line or radius."""
 SERIES = 11

@@ -115,7 +115,7 @@ def needs_of(batch: Batch) -> Needs:
     """Return what the job of a batch may need: its runs are kept until all are solved; kernels may need compiling."""
     memory = max(map(cost.memory, batch.points)) + sum(map(cost.disk, batch.points))
     minutes = sum(map(cost.seconds, batch.points)) / 60
-    return Needs(max(500, math.ceil(memory / 1e6)), math.ceil(10 + 2 * minutes))
+    return Needs(max(1000, math.ceil(memory / 1e6)), math.ceil(10 + 2 * minutes))
 
 
 def stamp(home: Path, name: str, outputs: Iterable[Path], whole: bool) -> Path:

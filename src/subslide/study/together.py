@@ -16,13 +16,14 @@ GEOMETRIES = {
 """Geometries to which a value of a key is limited."""
 
 
-NORMAL = {"float64": (2.23e-308, 1.79e308, 1.1e-16), "float32": (1.18e-38, 3.4e38, 6e-8)}
-"""Least and greatest number of each type, and what is lost beside 1."""
+LEAST_SINGLE, MOST_SINGLE, LOST_SINGLE = 1.18e-38, 3.4e38, 6e-8
+"""Least and greatest number of float32, and what is lost beside 1. float64 holds whatever the keys allow."""
 
 
 def check(point: Point) -> None:
     """Raise a ConfigError, of one line, if values of a point do not go with one another."""
-    _check_type(point)
+    if point.dtype == "float32":
+        _check_single(point)
     if point.model == "one-layer" and point.r != 0:
         raise ConfigError(f"model: one-layer is not allowed with r: {point.r:g}; allowed: only with r: 0")
     if point.friction == "pouliquen" and point.delta_2 <= point.delta:
@@ -50,17 +51,16 @@ def check(point: Point) -> None:
         )
 
 
-def _check_type(point: Point) -> None:
-    """Raise a ConfigError unless the working precision holds what the values become in scaled equations."""
-    least, most, lost = NORMAL[point.dtype]
-    if 0 < point.a_H < lost:
+def _check_single(point: Point) -> None:
+    """Raise a ConfigError unless float32 holds what the values become in scaled equations."""
+    if 0 < point.a_H < LOST_SINGLE:
         raise ConfigError(
-            f"a_H: {point.a_H:g} is lost beside 1 in {point.dtype}; allowed: 0, or from {lost:g}"
+            f"a_H: {point.a_H:g} is lost beside 1 in float32; allowed: 0, from {LOST_SINGLE:g}, or dtype: float64"
         )
     scaled = {"delta": point.friction_number, "xi": point.turbulence, **dict(point.scene_options)}
     for name, value in scaled.items():
-        if isinstance(value, float) and value and not least <= abs(value) <= most:
+        if isinstance(value, float) and value and not LEAST_SINGLE <= abs(value) <= MOST_SINGLE:
             raise ConfigError(
-                f"{name}: {value:g}, as it enters the equations, is no number of {point.dtype}; allowed: 0, or from"
-                f" {least:g} to {most:g}"
+                f"{name}: {value:g}, as it enters the equations, is no number of float32; allowed: 0, from"
+                f" {LEAST_SINGLE:g} to {MOST_SINGLE:g}, or dtype: float64"
             )

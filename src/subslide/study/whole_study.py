@@ -30,13 +30,13 @@ def values_of(values: dict, names: dict[str, str] | None = None) -> dict[str, An
     """
     whole = {}
     for key in schema.with_role("study"):
-        about = schema.properties()[key]
-        if key != "cases" and (key in values or "default" in about):
-            whole[key] = schema.checked(
-                key, values.get(key, about.get("default")), (names or {}).get(key, key)
-            )
-    known = catalogue.names("figures")
-    for name in whole["figures"] if isinstance(whole["figures"], list) else ():
+        if key in values and key != "cases":
+            whole[key] = schema.checked(key, values[key], (names or {}).get(key, key))
+        elif "default" in schema.properties()[key]:
+            whole[key] = schema.properties()[key]["default"]
+    listed = whole["figures"] if isinstance(whole["figures"], list) else []
+    known = catalogue.names("figures") if listed else []
+    for name in listed:
         if name not in known:
             key, hint = (names or {}).get("figures", "figures"), words.closest(name, known)
             raise ConfigError(

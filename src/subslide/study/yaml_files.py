@@ -132,6 +132,8 @@ def read_text(path: Path | str, most: int) -> str:
     ConfigError
         If there is no such file, or it is something else: one line, which begins with the path.
     """
+    if not str(path):
+        raise ConfigError("the path of a file (CONFIG, SPEC) is ''; allowed: the path of a file")
     path = Path(path)
     try:
         about = os.stat(path)  # before it is opened: opening a pipe waits for ever
