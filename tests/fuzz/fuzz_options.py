@@ -75,7 +75,10 @@ def plain() -> list[tuple[list[str], tuple[str, ...]]]:
             ([verb, folder], ("points.json", folder[:20], "errors.csv", "RESULTS")) for verb in OF_RESULTS
         ]
         lines.append(
-            (["figure", "fig06_fronts", "--results", folder, "-o", "f"], ("points.json", "runs", "results"))
+            (
+                ["figure", "fig06_fronts", "--results", folder, "-o", "f"],
+                ("points.json", "runs", "results", folder[:20]),
+            )
         )
         lines.append((["table", "runs", folder], ("points.json", folder[:20], "RESULTS")))
     lines += [

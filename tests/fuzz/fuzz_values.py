@@ -78,7 +78,7 @@ NOT_A_NUMBER = (
     "-5e-324",
 )
 TINY = ("5e-324", "1.0e-310", "1e-40", "1.0e-200")
-KEYS = ("c.yaml", "detla", "cases", "<<", "nope", "2024-01-01", "a\\x1b[31mb", "a\\x00b")
+KEYS = ("c.yaml", "a_H", "detla", "cases", "<<", "nope", "2024-01-01", "a\\x1b[31mb", "a\\x00b")
 """What a message on a whole file names: it, or the key that is wrong."""
 
 DIVISORS = ("a_2", "radius", "g", "cfl")
