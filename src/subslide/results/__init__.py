@@ -14,36 +14,14 @@ from subslide import catalogue, checksums
 from subslide.files import RecordError
 from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
-from subslide.points import RUN_KEYS, Point, from_dict
+from subslide.results.listing import Companion, StudyRun, listed, verify
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-AGAIN = "make the study again"
-"""What mends a file of a study."""
-
 MOST_BYTES = 250e6
 """Size of the records from which on a study is read in more than one go."""
-
-
-class StudyRun(NamedTuple):
-    """One run of a study: its id, the label of its numerics, its point, and the batch whose record holds it."""
-
-    id: str
-    numerics: str
-    point: Point
-    batch: str
-
-
-class Companion(NamedTuple):
-    """A coarser run of a study with bands: its id, that of the run it belongs to, its role, its point and its batch."""
-
-    id: str
-    of: str
-    role: str
-    point: Point
-    batch: str
 
 
 Solved = TypeVar("Solved", bound=StudyRun | Companion)
@@ -65,43 +43,17 @@ class Results:
     @functools.cached_property
     def runs_of_study(self) -> tuple[StudyRun, ...]:
         """Return the runs in the order of the tables; ConfigError if the folder is none of a study."""
-        return tuple(
-            StudyRun(row["id"], row["numerics"], row["point"], row["batch"]) for row in self._index["points"]
-        )
+        return self._listed[0]
 
     @functools.cached_property
     def companions(self) -> tuple[Companion, ...]:
         """Return the coarser runs of a study with bands; none without."""
-        rows = self._index.get("companions", ())
-        return tuple(Companion(row["id"], row["of"], row["role"], row["point"], row["batch"]) for row in rows)
+        return self._listed[1]
 
     @functools.cached_property
-    def _index(self) -> dict[str, Any]:
-        """Return what points.json holds, its rows with their points."""
-        path = self.folder / "points.json"
-        if not path.is_file():
-            raise ConfigError(f"{path}: there is no such file; allowed: the folder of a study that was run")
-        fault = self._fault(path)
-        try:
-            index = json.loads(path.read_text(encoding="utf-8"))
-            sections = {key: index[key] for key in ("points", "companions") if key in index}
-            rows = {key: [_row(row, check=bool(fault)) for row in rows] for key, rows in sections.items()}
-            if not rows["points"]:
-                raise ValueError("there are no points")
-        except (
-            OSError,
-            ValueError,
-            KeyError,
-            TypeError,
-            AttributeError,
-            ArithmeticError,
-            RecursionError,
-        ) as error:
-            what = words.cut(" ".join(str(error).split()) or type(error).__name__)
-            raise RecordError(f"{path} is damaged or not of this version ({what}); {AGAIN}") from None
-        if fault and checksums.beside(path).exists():
-            raise RecordError(f"{fault}; {AGAIN}")
-        return rows
+    def _listed(self) -> tuple[tuple[StudyRun, ...], tuple[Companion, ...]]:
+        """Return the runs and companions that points.json states."""
+        return listed(self.folder)
 
     @overload
     def each(self, *names: str, among: None = None) -> Iterator[tuple[StudyRun, dict[str, Any]]]: ...
@@ -146,7 +98,7 @@ class Results:
             held: dict[str, dict[str, Any]] = {}
             for batch in dict.fromkeys(run.batch for run in part):
                 ids = {run.id for run in part if run.batch == batch}
-                self._verify(paths[batch])
+                verify(paths[batch])
                 held |= by_run.read(paths[batch], ids, names)
             yield from ((run, held[run.id]) for run in part)
 
@@ -169,26 +121,13 @@ class Results:
         from subslide.records import netcdf
 
         path = self._record_path(batch)
-        self._verify(path)
+        verify(path)
         netcdf.read(path)
         return open_record(path)
 
     def _record_path(self, batch: str) -> Path:
         """Return the path of the record of a batch."""
         return self.folder / "records" / f"{batch}.nc"
-
-    def _fault(self, path: Path) -> str:
-        """Return why a file of the study is not as it was written, '' if it is; it is not opened as what it is."""
-        try:
-            checksums.verify(path)
-        except RecordError as error:
-            return str(error)
-        return ""
-
-    def _verify(self, path: Path) -> None:
-        """Raise a RecordError unless a file of the study is as it was written."""
-        if fault := self._fault(path):
-            raise RecordError(f"{fault}; {AGAIN}")
 
     def table(self, name: str) -> "pd.DataFrame":
         """Return a table of the study by its name, as it was last written.
@@ -217,7 +156,7 @@ class Results:
         paths = [self.folder / "tables" / f"{name}.{kind}" for kind in ("parquet", "csv")]
         for path in paths:
             if path.is_file():
-                self._verify(path)
+                verify(path)
                 return path
         raise ConfigError(
             f"{paths[-1]}: there is no such file; allowed: the folder of a study with this table"
@@ -305,14 +244,6 @@ def trimmed(data: "xr.Dataset", name: str) -> "xr.Dataset":
         inside = np.isfinite(one["h2"].isel(snapshot=0).values)
         one = one.isel(snapshot=slice(snapshots), **{dim: inside for dim in ("x", "y") if dim in one.dims})
     return one
-
-
-def _row(row: dict, check: bool) -> dict[str, Any]:
-    """Return a row of points.json with its point; ValueError if its values are not allowed, or not those of its id."""
-    point = from_dict({key: schema.checked(key, row[key]) if check else row[key] for key in RUN_KEYS})
-    if check and point.id != row["id"]:
-        raise ValueError(f"the values of {row['id']} belong to {point.id}")
-    return {**row, "point": point}
 
 
 def _empty(name: str) -> "pd.DataFrame":

@@ -1,0 +1,113 @@
+"""What a study's folder says of itself: the runs that points.json lists, and whether a file is as it was written."""
+
+import json
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from subslide import checksums
+from subslide.files import RecordError
+from subslide.keys import schema, words
+from subslide.keys.schema import ConfigError
+from subslide.points import RUN_KEYS, Point, from_dict
+
+AGAIN = "make the study again"
+"""What mends a file of a study."""
+
+BROKEN = (OSError, ValueError, KeyError, TypeError, AttributeError, ArithmeticError, RecursionError)
+"""What reading a file of JSON raises that is damaged, or something else."""
+
+
+class StudyRun(NamedTuple):
+    """One run of a study: its id, the label of its numerics, its point, and the batch whose record holds it."""
+
+    id: str
+    numerics: str
+    point: Point
+    batch: str
+
+
+class Companion(NamedTuple):
+    """A coarser run of a study with bands: its id, that of the run it belongs to, its role, its point and its batch."""
+
+    id: str
+    of: str
+    role: str
+    point: Point
+    batch: str
+
+
+def listed(folder: Path) -> tuple[tuple[StudyRun, ...], tuple[Companion, ...]]:
+    """Return the runs of a study, in the order of the tables, and their companions.
+
+    Parameters
+    ----------
+    folder
+        Folder of the study.
+
+    Returns
+    -------
+    tuple of StudyRun and tuple of Companion
+        What points.json states. Without its checksum, as in folders of the version before, each row is checked.
+
+    Raises
+    ------
+    ConfigError
+        If there is no such file.
+    RecordError
+        If it is damaged, or was edited.
+    """
+    path = folder / "points.json"
+    if not path.is_file():
+        raise ConfigError(f"{path}: there is no such file; allowed: the folder of a study that was run")
+    fault = _fault(path)
+    try:
+        index = json.loads(path.read_text(encoding="utf-8"))
+        sections = {key: index[key] for key in ("points", "companions") if key in index}
+        rows = {key: [_row(row, check=bool(fault)) for row in rows] for key, rows in sections.items()}
+        runs = tuple(StudyRun(row["id"], row["numerics"], row["point"], row["batch"]) for row in rows["points"])
+        others = tuple(
+            Companion(row["id"], row["of"], row["role"], row["point"], row["batch"])
+            for row in rows.get("companions", ())
+        )
+        if not runs:
+            raise ValueError("there are no points")
+    except BROKEN as error:
+        what = words.cut(" ".join(str(error).split()) or type(error).__name__)
+        raise RecordError(f"{path} is damaged or not of this version ({what}); {AGAIN}") from None
+    if fault and checksums.beside(path).exists():
+        raise RecordError(f"{fault}; {AGAIN}")
+    return runs, others
+
+
+def verify(path: Path) -> None:
+    """Check that a file of a study is as it was written, before it is opened as what it is.
+
+    Parameters
+    ----------
+    path
+        The file.
+
+    Raises
+    ------
+    RecordError
+        If it is not: one line.
+    """
+    if fault := _fault(path):
+        raise RecordError(f"{fault}; {AGAIN}")
+
+
+def _fault(path: Path) -> str:
+    """Return why a file is not as it was written, '' if it is."""
+    try:
+        checksums.verify(path)
+    except RecordError as error:
+        return str(error)
+    return ""
+
+
+def _row(row: dict, check: bool) -> dict[str, Any]:
+    """Return a row of points.json with its point; ValueError if its values are not allowed, or not those of its id."""
+    point = from_dict({key: schema.checked(key, row[key]) if check else row[key] for key in RUN_KEYS})
+    if check and point.id != row["id"]:
+        raise ValueError(f"the values of {row['id']} belong to {point.id}")
+    return {**row, "point": point}
