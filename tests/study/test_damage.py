@@ -152,3 +152,21 @@ def test_a_reader_names_the_damaged_file_in_one_line(project, capsys, name):
         assert len(lines) == 1
         assert str(path) in lines[0]
     assert not (project.folder / "o").exists()
+
+
+def test_a_record_of_another_version_is_named_in_one_line(project, capsys, monkeypatch):
+    """Its checksums are right, and it lacks a variable that a table needs."""
+    from subslide.records import by_run
+
+    whole = by_run.netcdf.read
+    lacking = {"wave_free_until"}
+    monkeypatch.setattr(
+        by_run.netcdf,
+        "read",
+        lambda path: ({k: v for k, v in whole(path)[0].items() if k not in lacking}, whole(path)[1]),
+    )
+    assert main(["table", "runs", str(project.results)]) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert (
+        "0001.nc: the record has no wave_free_until: it is of another version; make the study again" in line
+    )

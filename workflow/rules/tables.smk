@@ -12,7 +12,7 @@ CAPTIONS = BASE / "workflow/report"
 def caption(name):
     """Return the path of the caption of a table or figure, or None."""
     path = CAPTIONS / f"{name}.rst"
-    return str(path) if path.exists() else None
+    return str(path.resolve()) if path.exists() else None  # Snakemake looks for others beside this file
 
 
 def made_from(name):

@@ -11,6 +11,21 @@ from subslide.records import netcdf
 from subslide.records.variables import Variable
 
 
+class OfRun(dict[str, Any]):
+    """Variables of a run by name; asking for one that its record lacks is a fault of the record."""
+
+    def __init__(self, path: Path, values: dict[str, Any]):
+        """Keep the path of the record for the message."""
+        super().__init__(values)
+        self.path = path
+
+    def __missing__(self, name: str) -> Any:
+        """Raise a RecordError: the record was written by another version."""
+        raise RecordError(
+            f"{self.path}: the record has no {name}: it is of another version; make the study again"
+        )
+
+
 def read(path: Path, ids: Collection[str], names: Collection[str]) -> dict[str, dict[str, Any]]:
     """Return variables of some runs of a record; nothing else stays in memory.
 
@@ -38,7 +53,7 @@ def read(path: Path, ids: Collection[str], names: Collection[str]) -> dict[str, 
     if lacking := sorted(set(ids) - set(places)):
         raise RecordError(f"{path}: the record lacks the run {lacking[0]}")
     wanted = {name: variables[name] for name in names if name in variables}
-    return {name: _of_run(variables, wanted, places[name]) for name in ids}
+    return {name: OfRun(path, _of_run(variables, wanted, places[name])) for name in ids}
 
 
 def _of_run(variables: dict[str, Variable], wanted: dict[str, Variable], place: int) -> dict[str, Any]:
