@@ -64,7 +64,8 @@ uncertain; see `bands.csv` in docs/tables.md. Adding or removing it computes the
 
 Changing the lists computes only what is new: each point has a name that depends on its values alone (`1` and `1.0`
 are the same), a ledger in `results/<study>/batches/` remembers which record holds it, and points that are no longer
-asked for stay there unused. A change of the package's code computes everything again.
+asked for stay there unused. A change of the package's code computes everything again. A study that was killed or
+damaged is mended by making it again: docs/disturbed.md.
 
 ## Keys
 

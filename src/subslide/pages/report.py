@@ -17,7 +17,10 @@ if TYPE_CHECKING:
     from subslide.results import Results
 
 MOST_ROWS = 200
-"""Rows of the table of runs that the page shows."""
+"""Rows of a table that the page shows."""
+
+MOST_SHOWN = 1_000_000
+"""Bytes of the largest table whose rows it shows."""
 
 SHOWN = (
     *("status", "L_f_1pc", "L_f_1pc_over_R", "time_at_rest"),
@@ -30,7 +33,9 @@ body { font: 1rem/1.5 system-ui, sans-serif; color: #1a1a1a; max-width: 62rem; m
 h1, h2, h3 { line-height: 1.2 } h2 { margin-top: 2.5rem; border-bottom: 1px solid #aaa }
 figure { margin: 1.5rem 0; break-inside: avoid } img { max-width: 100%; height: auto }
 figcaption, .note { color: #444; font-size: .9rem; max-width: 46rem }
-.scroll { overflow-x: auto } table { border-collapse: collapse; font-size: .85rem }
+.scroll { overflow-x: auto } details { margin: .6rem 0 }
+iframe { width: 100%; height: 36rem; border: 1px solid #ddd }
+ table { border-collapse: collapse; font-size: .85rem }
 th, td { padding: .15rem .6rem; text-align: right; border-bottom: 1px solid #ddd; white-space: nowrap }
 """
 
@@ -60,7 +65,7 @@ def text(results: "Results", captions: Path | None = None) -> str:
         "<h2>Runs</h2>",
         _rows(runs),
         "<h2>Tables</h2>",
-        _tables(results.folder),
+        *_tables(results, captions),
         "<h2>Provenance</h2>",
         f"<p>Made by subslide {subslide.__version__}, sources {subslide.source_hash()}. Each record states the versions"
         " it was made with and its whole configuration.</p>",
@@ -82,7 +87,7 @@ def varied(runs: "pd.DataFrame") -> list[str]:
 
 def _asked(runs: "pd.DataFrame") -> str:
     """Return a paragraph on what was asked."""
-    axes = [f"{key} ({_listed(sorted(runs[key].dropna().unique(), key=str))})" for key in varied(runs)]
+    axes = [f"{key} ({_listed(runs[key].dropna().sort_values().unique().tolist())})" for key in varied(runs)]
     sweep = f"over {'; '.join(axes)}" if axes else "of one set of values"
     return f"<p>{len(runs)} run{'s' * (len(runs) != 1)} {_safe(sweep)}.</p>"
 
@@ -132,26 +137,46 @@ def _rows(runs: "pd.DataFrame") -> str:
     """Return the first rows of the table of runs: the keys that vary, and what was found."""
     columns = ["id", *varied(runs), *SHOWN]
     shown = runs[columns].head(MOST_ROWS)
-    table = shown.to_html(
-        index=False, border=0, na_rep="", float_format=lambda value: f"{value:.6g}", escape=True
+    table = shown.to_html(index=False, border=0, na_rep="", float_format=lambda value: f"{value:.6g}")
+    return f'<div class="scroll">{table}</div>{_rest(len(runs), "runs.csv")}'
+
+
+def _tables(results: "Results", captions: Path | None) -> Iterable[str]:
+    """Give each table: what it is, its page or its first rows, and a link to its file."""
+    for name in catalogue.names("tables"):
+        files = [
+            path for path in sorted((results.folder / "tables").glob(f"{name}.*")) if path.suffix != ".sha256"
+        ]
+        if not files:
+            continue
+        links = " ".join(f'<a href="tables/{path.name}">{path.name}</a>' for path in files)
+        yield (
+            f"<details><summary>{_safe(catalogue.table(name).title)}</summary><p>{_caption(captions, name)}"
+            f" {links}</p>{_content(results, name, files)}</details>"
+        )
+
+
+def _content(results: "Results", name: str, files: list[Path]) -> str:
+    """Return what the page shows of a table: its own page, its first rows, or nothing of one that is large."""
+    page = next((path for path in files if path.suffix == ".html"), None)
+    if page:
+        return f'<iframe title="{name}" srcdoc="{_safe(page.read_text(encoding="utf-8"))}"></iframe>'
+    if files[0].suffix != ".csv" or files[0].stat().st_size > MOST_SHOWN or name == "runs":
+        return ""
+    lines = results.lines(name)
+    head = "".join(f"<th>{_safe(column)}</th>" for column in lines[0]) if lines else ""
+    rows = (
+        "<tr>" + "".join(f"<td>{_safe(entry)}</td>" for entry in line.values()) + "</tr>"
+        for line in lines[:MOST_ROWS]
     )
-    rest = len(runs) - len(shown)
-    note = f'<p class="note">{rest} more rows stand in tables/runs.csv.</p>' if rest else ""
-    return f'<div class="scroll">{table}</div>{note}'
+    table = f"<table><tr>{head}</tr>{''.join(rows)}</table>"
+    return f'<div class="scroll">{table}</div>{_rest(len(lines), files[0].name)}'
 
 
-def _tables(folder: Path) -> str:
-    """Return links to the files of the tables."""
-    files = [
-        (path, catalogue.table(name).title)
-        for name in catalogue.names("tables")
-        for path in sorted((folder / "tables").glob(f"{name}.*"))
-        if path.suffix != ".sha256"
-    ]
-    items = [
-        f'<li><a href="tables/{path.name}">{path.name}</a>: {_safe(title)}</li>' for path, title in files
-    ]
-    return f"<ul>{''.join(items)}</ul>"
+def _rest(rows: int, file: str) -> str:
+    """Return a note on rows that are not shown, '' if all are."""
+    rest = rows - MOST_ROWS
+    return f'<p class="note">{rest} more rows stand in tables/{file}.</p>' if rest > 0 else ""
 
 
 def _listed(values: list, most: int = 12) -> str:
