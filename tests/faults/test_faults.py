@@ -62,6 +62,6 @@ def test_one_command_mends_every_fault(fault, turn, undisturbed, tmp_path):
     assert tables_of(victim) == tables_of(undisturbed), text
     again = victim.make()
     text, _ = again.communicate(timeout=300)
-    assert "Nothing to be done" in text
+    assert "Nothing to be done" in text, text
     left = [path for path in victim.results.rglob("*") if path.name.endswith((".tmp", ".part", ".probe"))]
     assert left == []

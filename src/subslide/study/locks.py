@@ -6,6 +6,7 @@ while it lives, and each job one on the folder of records: where nobody holds th
 
 import contextlib
 import fcntl
+import json
 import os
 import time
 from collections.abc import Callable, Iterator
@@ -83,8 +84,22 @@ def unlock(study: str, results: Path, cache: Path, say: Callable[[str], object])
             paths = path.read_text(errors="replace").splitlines()
             if any(Path(line).is_relative_to(results) for line in paths):
                 path.unlink()
+        _forget_damaged(cache)
     finally:
         os.close(handle)
+
+
+def _forget_damaged(cache: Path) -> None:
+    """Remove what Snakemake remembers of a job and cannot read: without it, it goes by stamps and times."""
+    for name in ("metadata", "incomplete"):
+        for path in (cache / name).rglob("*"):
+            if path.is_file():
+                try:
+                    remembered = isinstance(json.loads(path.read_bytes()), dict)
+                except ValueError:
+                    remembered = name == "incomplete" and not path.read_bytes()
+                if not remembered:
+                    path.unlink()
 
 
 def _wait_for_jobs(records: Path, say: Callable[[str], object]) -> None:
