@@ -32,7 +32,7 @@ test: $(READY)  ## set up, then lint, format, types and every test
 	$(BIN)/subslide warm quarter:float64 plane:float64 & plane=$$!; \
 		$(BIN)/subslide warm radial:float64 one-layer:float64 radial:float64:general && wait $$plane
 	@$(MAKE) --no-print-directory test-interpreted
-	$(BIN)/python -m pytest -n auto --dist loadgroup $(PYTEST_OPTIONS)
+	$(BIN)/python -m pytest -n auto --dist loadfile --no-loadscope-reorder $(PYTEST_OPTIONS)
 
 .PHONY: test-interpreted
 test-interpreted: $(READY)  ## small runs with the compiler off: kernels within their arrays, tracebacks that name the line

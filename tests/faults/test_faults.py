@@ -21,7 +21,7 @@ FAULTS = [(fault, 0) for fault in SHORT] + [
     pair for pair in ALL if pair not in [(fault, 0) for fault in SHORT]
 ]
 
-pytestmark = pytest.mark.xdist_group("faults")
+pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,7 @@ OF_EACH = {
 }  # fmt: skip
 """Commands of each kind."""
 
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("fuzz")]
+pytestmark = pytest.mark.slow
 
 
 def test_there_are_40():

@@ -7,8 +7,6 @@ from fuzz_kinds import KINDS
 MANY = 4
 """Times as many in the long lane."""
 
-pytestmark = pytest.mark.xdist_group("fuzz")
-
 
 def test_there_are_500():
     assert sum(count for count, _ in KINDS.values()) >= 500

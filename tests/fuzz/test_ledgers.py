@@ -24,8 +24,6 @@ BESIDE = (
 )
 """Names of files that lie beside those of the ledger."""
 
-pytestmark = pytest.mark.xdist_group("fuzz")
-
 
 @pytest.fixture(scope="module")
 def study(tmp_path_factory):

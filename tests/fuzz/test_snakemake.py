@@ -10,7 +10,7 @@ import pytest
 from fuzz_calling import LONGEST, changes, rng_of, snapshot
 from fuzz_studies import STUDY, flips
 
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("fuzz")]
+pytestmark = pytest.mark.slow
 
 SECONDS = 60
 PREFIX = "configuration: "
@@ -41,7 +41,7 @@ NOT_READ = {
 """Files that Snakemake itself refuses, in its words, before it reads ours."""
 
 LOOKS = ("-n", "--list-rules", "--dag", "--summary", "--lint", "--report")
-"""Commands that only look; the last has nothing to report on."""
+"""Commands that only look; the last writes its page and nothing else."""
 
 
 class Project:

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 from projects import STUDY, Project
 
-pytestmark = pytest.mark.xdist_group("calling")
+pytestmark = pytest.mark.slow
 
 IMPORTING = """configfile: "cfg.yaml"
 module subslide:

@@ -42,7 +42,7 @@ CHANGED = {
 }
 """Files that its examples change."""
 
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("carrying on")]  # one worker: the tests share a copy
+pytestmark = pytest.mark.slow
 
 
 def examples() -> list[tuple[str, str, str]]:

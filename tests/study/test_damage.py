@@ -8,7 +8,7 @@ from projects import STUDY, TABLES, Project
 
 from subslide.__main__ import main
 
-pytestmark = pytest.mark.xdist_group("damage")
+pytestmark = pytest.mark.slow
 
 AGAIN = {"batch": 1, **TABLES, "report": 1}
 

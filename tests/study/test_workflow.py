@@ -29,7 +29,7 @@ def table(results):
         yield {"id": run.id, "end": record["L_f"][0]}
 '''
 
-pytestmark = pytest.mark.xdist_group("workflow")  # one worker: the tests share a finished study
+pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="session")
