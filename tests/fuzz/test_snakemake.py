@@ -135,4 +135,4 @@ def test_commands_that_look_write_nothing_though_records_are_damaged(look, proje
     (project.folder / "results/t/batches/0001-old.json").write_text("{")
     _, printed, changed = project.snakemake(look)
     assert "Traceback" not in printed
-    assert changed == {}
+    assert set(changed) <= ({"report.html"} if look == "--report" else set())
