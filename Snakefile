@@ -63,6 +63,7 @@ rule all:
 
 
 onstart:
+    locks.sign(HOME)
     staging.tidy(RESULTS, STAGED)
     # tables that the study had before, and has no more, would be read as if they were its own
     for name in set(catalogue.names("tables")) - set(TABLES):

@@ -30,10 +30,13 @@ def hold(home: Path) -> None:
         The study's folder within `.snakemake`, which is there.
     """
     handle = os.open(home / "alive", os.O_RDWR | os.O_CREAT)
-    if _locked(handle, fcntl.LOCK_SH | fcntl.LOCK_NB):
-        os.truncate(handle, 0)
-        os.write(handle, f"{os.getpid()}\n".encode())
+    _locked(handle, fcntl.LOCK_SH)
     _held.append(handle)
+
+
+def sign(home: Path) -> None:
+    """Write who makes the study that a folder within `.snakemake` belongs to, for the message to others."""
+    (home / "alive").write_text(f"{os.getpid()}\n")
 
 
 @contextlib.contextmanager
