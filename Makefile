@@ -18,9 +18,9 @@ paper: $(READY)  ## set up, then the paper's study to figures and report
 	@echo "The paper's study is up to date: results/paper/report.html"
 
 study: $(READY)  ## check a study and run it: make study CONFIG=config/mine.yaml CORES=2
-	@$(BIN)/subslide check "$$CONFIG"
-	@$(BIN)/subslide unlock "$$CONFIG"
-	@$(BIN)/snakemake --configfile "$$CONFIG" --cores "$$CORES"
+	@$(BIN)/subslide check -- "$$CONFIG"
+	@$(BIN)/subslide unlock -- "$$CONFIG"
+	@$(BIN)/snakemake --configfile="$$CONFIG" --cores "$$CORES"
 	@echo "The study in $$CONFIG is up to date: its tables, figures and report.html are in results/, under its name"
 
 test: $(READY)  ## set up, then lint, format, types and every test

@@ -18,6 +18,7 @@ report: "workflow/report/workflow.rst"
 
 BASE = Path(os.path.relpath(str(workflow.current_basedir)))  # a study may be moved with its workflow
 
+PREFIX = workflow.modifier.path_modifier
 ARGUMENTS = workflow.config_settings.config_args
 
 # The file is read by our own strict reader: Snakemake's takes the last of two equal keys, and 0200 for 128.
@@ -28,17 +29,22 @@ try:
         STUDY = make_study(
             asked.values(workflow.overwrite_configfiles, ARGUMENTS, BASE / "config/paper.yaml")
         )
+    if PREFIX.prefix or PREFIX._prefix_replacements:
+        raise ConfigError("prefix: is not allowed; allowed: a module without, whose results lie in results/")
+    RESULTS = Path("results", STUDY.name)
+    HOME = Path(".snakemake/subslide", STUDY.name)
+    plan.check_folders(RESULTS, HOME)
 except ConfigError as error:
     raise WorkflowError(f"configuration: {printable(str(error))}") from None
 
-RESULTS = Path("results", STUDY.name)
-HOME = Path(".snakemake/subslide", STUDY.name)
-
 # A job that Snakemake starts elsewhere reads this file too, and must have the plan that it was started with.
 if workflow.is_main_process:
-    PLAN = plan.plan(STUDY, RESULTS)
-    STAGED = staging.stage(PLAN, HOME)
-    locks.hold(HOME)
+    try:
+        PLAN = plan.plan(STUDY, RESULTS)
+        STAGED = staging.stage(PLAN, HOME)
+        locks.hold(HOME)
+    except OSError as error:  # a full disk, say
+        raise WorkflowError(f"planning: {error.filename}: {error.strerror}") from None
     workflow.config_settings.config_args = [*ARGUMENTS, f"{asked.KEY}={STAGED.key}"]
     for line in PLAN.faults:
         print(line, file=sys.stderr)
@@ -59,12 +65,14 @@ rule all:
         SEALED_TABLES,
         RECORDS,
         rules.points.output,
-        FIGURES,
+        SEALED_FIGURES,
 
 
 onstart:
     locks.sign(HOME)
-    staging.tidy(RESULTS, STAGED)
+    staging.tidy(
+        RESULTS, STAGED, map(Path, [*RECORDS, *SEALED_TABLES, *SEALED_FIGURES, *rules.report.output])
+    )
     # tables that the study had before, and has no more, would be read as if they were its own
     for name in set(catalogue.names("tables")) - set(TABLES):
         remove_table(name, RESULTS)

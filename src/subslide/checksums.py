@@ -58,6 +58,8 @@ def verify(path: Path | str) -> dict[str, str]:
     path, stated = Path(path), beside(path)
     if not path.is_file():
         raise RecordError(f"{path}: there is no such file")
+    if stated.exists() and not stated.is_file():
+        raise RecordError(f"{stated}: the checksum is no regular file")
     try:
         text = stated.read_bytes()[:LONGEST].decode()
         (digest, name), *notes = (line.split(maxsplit=1) for line in text.splitlines())

@@ -72,6 +72,20 @@ def test_another_workflow_can_import_this_one(project, tmp_path):
     assert (tmp_path / "results/small/report.html").exists()
 
 
+def test_a_module_with_a_prefix_is_refused_in_one_line(project, tmp_path):
+    """Its jobs would write where Snakemake does not look."""
+    text = IMPORTING.replace(
+        '    config: config["subslide"]', '    config: config["subslide"]\n    prefix: "pre"'
+    )
+    (tmp_path / "Snakefile").write_text(text)
+    indented = "".join(f"  {line}\n" for line in STUDY.splitlines())
+    (tmp_path / "cfg.yaml").write_text(f"subslide:\n{indented}")
+    done = snakemake(tmp_path)
+    assert done.returncode == 1
+    assert "configuration: prefix: is not allowed; allowed: a module without" in done.stderr
+    assert not list(tmp_path.rglob("results"))
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [

@@ -87,7 +87,7 @@ def test_what_was_deleted_is_made_again(project, finished, name):
 
 @pytest.mark.parametrize("snakemake_remembers", [True, False])
 def test_edited_and_emptied_files_are_made_again(project, finished, snakemake_remembers):
-    names = ("tables/runs.csv", "tables/series.csv", "points.json")
+    names = ("tables/runs.csv", "tables/series.csv", "points.json", "report.html")
     right = [(finished.results / name).read_bytes() for name in names]
     for name in names:
         path = project.results / name
@@ -99,6 +99,35 @@ def test_edited_and_emptied_files_are_made_again(project, finished, snakemake_re
         assert [(project.results / name).read_bytes() for name in names] == right
         for name in names:
             kept_time(project.results / name, b"")
+
+
+def test_what_stands_where_a_file_belongs_is_set_aside(project, finished):
+    """A folder in place of a table, pipes in place of checksums: nothing waits for them."""
+    (project.results / "tables/runs.csv").unlink()
+    (project.results / "tables/runs.csv").mkdir()
+    (project.results / "tables/runs.csv/notes").write_text("mine\n")
+    for name in ("tables/series.csv", "records/0001.nc", "points.json"):
+        (project.results / f"{name}.sha256").unlink()
+        os.mkfifo(project.results / f"{name}.sha256")
+    project.snakemake()
+    assert tables_of(project) == tables_of(finished)
+    assert [path.read_text() for path in (project.results / "damaged").rglob("notes")] == ["mine\n"]
+    assert project.jobs() == {}
+
+
+@pytest.mark.parametrize("name", ["results", "results/small", "results/small/records", ".snakemake/subslide"])
+def test_a_file_where_a_folder_belongs_is_named_in_one_line(project, capsys, monkeypatch, name):
+    path = project.folder / name
+    shutil.rmtree(path)
+    path.write_text("mine\n")
+    text = project.snakemake(check=False)
+    said = f"{name} is a file where a folder of the study belongs: move it away"
+    assert [said in line for line in text.splitlines()].count(True) == 1
+    assert "Traceback" not in text
+    monkeypatch.chdir(project.folder)
+    assert main(["unlock", "small.yaml"]) == 2
+    assert capsys.readouterr().err == f"subslide: {said}\n"
+    assert path.read_text() == "mine\n"
 
 
 def test_two_records_that_were_swapped_with_their_checksums_are_solved_again(project):

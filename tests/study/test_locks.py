@@ -2,6 +2,7 @@
 
 import fcntl
 import os
+import shutil
 import subprocess
 import sys
 import threading
@@ -49,6 +50,14 @@ def test_the_lock_of_a_dead_run_goes_and_that_of_another_study_stays(cache, caps
     assert left(cache) == ["1.output.lock"]
     assert capsys.readouterr() == ("", "")
     assert main(["unlock", "one.yaml"]) == 0
+
+
+def test_a_lock_goes_though_all_else_is_gone_and_if_it_cannot_be_read(cache):
+    """The version before this one held no lock of the system; a full disk leaves any bytes."""
+    shutil.rmtree(cache / "subslide")
+    (cache / "locks/2.output.lock").write_bytes(b"\xff\xfe")
+    assert main(["unlock", "one.yaml"]) == 0
+    assert left(cache) == ["1.output.lock"]
 
 
 def test_a_living_run_keeps_its_lock_until_it_is_killed(cache, capsys):

@@ -141,7 +141,15 @@ def test_an_unreadable_batch_file_counts_as_not_there(solved, name):
 def test_other_files_among_the_batches_do_not_matter(solved):
     folder = solved(a_H=[1])
     home = folder / "batches"
-    for name in ("0001-old.json", "0001.json.bak", "1.json", "notes.json", ".0002.json.tmp"):
+    for name in (
+        "0001-old.json",
+        "0001.json.bak",
+        f"{'9' * 240}.json",
+        f"{'9' * 10}.json",
+        "1.json",
+        "notes.json",
+        ".0002.json.tmp",
+    ):
         (home / name).write_text("{")
     (home / "0003.json").mkdir()
     os.mkfifo(home / "0004.json")

@@ -1,12 +1,23 @@
 # Figures: each is drawn from the tables and records alone; tables made of other tables are for reading.
 
-FIGURES = [RESULTS / f"figures/{name}.{kind}" for name in STUDY.figures for kind in ("png", "svg")]
+SEALED_FIGURES = [
+    file
+    for name in STUDY.figures
+    for kind in ("png", "svg")
+    for file in sealed(RESULTS / f"figures/{name}.{kind}")
+]
 DRAWN = [
     path
     for name, paths in TABLES.items()
     for path in paths
     if "records" in catalogue.table(name).reads or not catalogue.table(name).reads
 ]
+
+
+def drawn(name):
+    """Return the files of a figure, and a function that tells whether they are whole and of the same sources."""
+    files = [RESULTS / f"figures/{name}.{kind}" for kind in ("png", "svg")]
+    return files, lambda: staging.are_whole(files, sources=source_hash("figure", name))
 
 
 for name in STUDY.figures:
@@ -17,6 +28,7 @@ for name in STUDY.figures:
         input:
             DRAWN,
             records=RECORDS,
+            stamp=stamp(f"figure-{name}", *drawn(name)),
         output:
             report(
                 RESULTS / f"figures/{name}.png",
@@ -25,6 +37,7 @@ for name in STUDY.figures:
                 labels={"figure": catalogue.figure(name).title},
             ),
             RESULTS / f"figures/{name}.svg",
+            [RESULTS / f"figures/{name}.{kind}.sha256" for kind in ("png", "svg")],
         log:
             RESULTS / f"logs/figure-{name}.log",
         benchmark:
@@ -33,7 +46,6 @@ for name in STUDY.figures:
             mem_mb=2000,
             runtime=30,
         params:
-            sources=source_hash("figure", name),
             name=name,
             results=RESULTS,
             folder=RESULTS / "figures",

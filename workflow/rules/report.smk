@@ -4,10 +4,15 @@
 rule report:
     input:
         SEALED_TABLES,
-        FIGURES,
+        SEALED_FIGURES,
         captions=sorted(CAPTIONS.glob("*.rst")),
+        stamp=stamp(
+            "report",
+            [RESULTS / "report.html"],
+            lambda: staging.are_whole([RESULTS / "report.html"], sources=source_hash("page", "report")),
+        ),
     output:
-        RESULTS / "report.html",
+        sealed(RESULTS / "report.html"),
     log:
         RESULTS / "logs/report.log",
     benchmark:
@@ -16,8 +21,7 @@ rule report:
         mem_mb=1000,
         runtime=30,
     params:
-        sources=source_hash("page", "report"),
         results=RESULTS,
         captions=CAPTIONS,
     shell:
-        "logged {log:q} subslide report {params.results:q} --captions {params.captions:q} -o {output:q}"
+        "logged {log:q} subslide report {params.results:q} --captions {params.captions:q} -o {output[0]:q}"

@@ -43,8 +43,10 @@ def unlock(config: str) -> None:
     """Remove the lock that a killed run of the study CONFIG has left in this folder; refuse if a run is at work."""
     from subslide.study import locks
     from subslide.study.config import read_study
+    from subslide.study.plan import check_folders
 
     name = read_study(config).name
+    check_folders(Path("results", name), Path(".snakemake/subslide", name))
     locks.unlock(name, Path("results", name), Path(".snakemake"), lambda line: click.echo(line, err=True))
 
 
@@ -54,8 +56,10 @@ def unlock(config: str) -> None:
 @click.option("-o", "--output", required=True, metavar="FILE.html", help="page to write")
 def report(results: str, captions: str | None, output: str) -> None:
     """Write the report of a study: one page with its figures and tables; RESULTS is its folder."""
+    from subslide import checksums, source_hash
     from subslide.files import write_text
     from subslide.pages import report as page
     from subslide.results import Results
 
     write_text(output, page.text(Results(results), Path(captions) if captions else None))
+    checksums.seal(output, sources=source_hash("page", "report"))

@@ -4,7 +4,7 @@ import importlib
 import os
 from pathlib import Path
 
-from subslide import catalogue
+from subslide import catalogue, checksums, source_hash
 from subslide.files import replacing
 from subslide.keys import plain, words
 from subslide.keys.schema import ConfigError
@@ -57,4 +57,5 @@ def save(name: str, results: Path, output: Path) -> list[Path]:
     for path, metadata in zip(paths, ({"Software": None}, {"Date": None}), strict=True):
         with replacing(path) as temporary:
             drawn.savefig(temporary, format=path.suffix[1:], dpi=200, bbox_inches="tight", metadata=metadata)
+        checksums.seal(path, sources=source_hash("figure", name))
     return paths

@@ -69,10 +69,11 @@ def unlock(study: str, results: Path, cache: Path, say: Callable[[str], object])
     ConfigError
         If another run of the study is at work.
     """
-    alive = cache / "subslide" / study / "alive"
-    if not alive.exists():
+    if not (cache / "locks").is_dir():
         return
-    handle = os.open(alive, os.O_RDWR)
+    alive = cache / "subslide" / study / "alive"
+    alive.parent.mkdir(parents=True, exist_ok=True)
+    handle = os.open(alive, os.O_RDWR | os.O_CREAT)
     try:
         until = time.monotonic() + PATIENCE
         while not _locked(handle, fcntl.LOCK_EX | fcntl.LOCK_NB):
@@ -84,12 +85,19 @@ def unlock(study: str, results: Path, cache: Path, say: Callable[[str], object])
             time.sleep(0.2)
         _wait_for_jobs(results / "records", say)
         for path in (cache / "locks").glob("*.lock"):
-            paths = path.read_text(errors="replace").splitlines()
-            if any(Path(line).is_relative_to(results) for line in paths):
+            if _of_study(path.read_bytes(), results):
                 path.unlink()
         _forget_damaged(cache)
     finally:
         os.close(handle)
+
+
+def _of_study(lock: bytes, results: Path) -> bool:
+    """Return whether a lock of Snakemake holds files of a study, or nothing that Snakemake can read."""
+    try:
+        return any(Path(line).is_relative_to(results) for line in lock.decode().splitlines())
+    except UnicodeDecodeError:
+        return True
 
 
 def _forget_damaged(cache: Path) -> None:

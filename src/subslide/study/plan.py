@@ -15,12 +15,16 @@ from typing import NamedTuple
 from subslide import checksums, source_hash
 from subslide.checksums import text_hash
 from subslide.files import RecordError
+from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS, Point, from_dict, to_dict
 from subslide.study.batches import MOST_BATCH_BYTES, spec_text, split
 from subslide.study.config import Study
 
-NAME = re.compile(r"(\d{4,})(p\d+)?")
+NAME = re.compile(r"\d{4,9}(p\d{1,4})?")
 """Names of batches: numbers, and the parts of those that were stopped."""
+
+FOLDERS = ("", "records", "batches", "tables", "figures", "logs", "benchmarks", "damaged")
+"""Folders of a study, from its own."""
 
 
 WHOLE = ("", False)
@@ -127,6 +131,26 @@ def plan(study: Study, folder: Path) -> Plan:
         batches[f"{number:04d}"] = _to_solve(f"{number:04d}", tuple(unsolved))
     owner |= {point.id: batch.name for batch in batches.values() for point in batch.points}
     return Plan(dict(sorted(batches.items())), _index(study, owner))
+
+
+def check_folders(folder: Path, home: Path) -> None:
+    """Check that nothing else stands where a study has its folders.
+
+    Parameters
+    ----------
+    folder, home
+        The study's folder of results, and that within `.snakemake`.
+
+    Raises
+    ------
+    ConfigError
+        If something does: one line that says what to remove.
+    """
+    for path in (folder.parent, *(folder / name for name in FOLDERS), *reversed(home.parents[:2]), home):
+        if (path.exists() or path.is_symlink()) and not path.is_dir():
+            raise ConfigError(f"{path} is a file where a folder of the study belongs: move it away")
+    if (home / "alive").is_dir():
+        raise ConfigError(f"{home / 'alive'} is a folder where a file belongs: move it away")
 
 
 class _Entry(NamedTuple):

@@ -193,11 +193,11 @@ def holds(path: Path, text: str) -> bool:
         return False
 
 
-def tidy(folder: Path, now: Staged) -> None:
+def tidy(folder: Path, now: Staged, outputs: Iterable[Path]) -> None:
     """Set a study's folder in order before jobs start.
 
-    What a killed job left half-written and what older plans staged is removed, damaged records are set aside, and times
-    in the future, which would let a job start at every call, are set to now.
+    What a killed job left half-written and what older plans staged is removed; damaged records, and folders where files
+    belong, are set aside; and times in the future, which would let a job start at every call, are set to now.
 
     Parameters
     ----------
@@ -205,12 +205,14 @@ def tidy(folder: Path, now: Staged) -> None:
         The study's folder of results.
     now
         The plan whose jobs start.
+    outputs
+        Files that jobs make.
     """
-    for name in now.damaged:
+    for path in (*(record_path(folder, name) for name in now.damaged), *filter(Path.is_dir, outputs)):
         with contextlib.suppress(OSError):
-            aside = folder / "damaged" / f"{name}.nc"
+            aside = folder / "damaged" / (f"{path.name}-{time.time_ns()}" if path.is_dir() else path.name)
             aside.parent.mkdir(exist_ok=True)
-            os.replace(record_path(folder, name), aside)
+            os.replace(path, aside)
     needed = {now.points_file, now.home / f"plan-{now.key}.json", *now.specs.values()}
     old = {path for path in now.home.glob("*-*.json") if path not in needed}
     for path in (*folder.rglob("*"), *now.home.iterdir()):
