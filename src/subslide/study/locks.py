@@ -69,7 +69,7 @@ def unlock(study: str, results: Path, cache: Path, say: Callable[[str], object])
     ConfigError
         If another run of the study is at work.
     """
-    if not (cache / "locks").is_dir():
+    if not cache.is_dir():
         return
     alive = cache / "subslide" / study / "alive"
     alive.parent.mkdir(parents=True, exist_ok=True)
