@@ -7,6 +7,7 @@ import io
 import os
 import signal
 import sys
+import traceback
 
 import click
 
@@ -57,7 +58,20 @@ def main(arguments: list[str] | None = None) -> int:
     except OSError as error:
         if error.errno in (errno.ENAMETOOLONG, errno.ELOOP):  # no name that a study gives is so
             return _complain(f"{words.show(error.filename)}: {error.strerror}", BAD_INPUT)
-        return _complain(f"{error.filename or 'standard output'}: {error.strerror or error}", FAULT)
+        return _complain(f"{_subject(error)}{error.strerror or error}", FAULT)
+
+
+def _subject(error: OSError) -> str:
+    """Return what an error of the system is about, and a colon; '' if nothing tells."""
+    if error.filename is not None:
+        return f"{error.filename}: "
+    if any(frame.f_code is click.echo.__code__ for frame, _ in traceback.walk_tb(error.__traceback__)):
+        return "standard output: "
+    try:
+        os.getcwd()
+    except OSError:
+        return "the current folder: "
+    return ""
 
 
 def _complain(message: str, code: int) -> int:

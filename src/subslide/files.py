@@ -38,10 +38,12 @@ def replacing(path: Path | str) -> Iterator[Path]:
     """Give a temporary path beside `path` to a block, and move it to `path` once the block has ended well.
 
     The data are on the disk before the name changes; after an error neither file is left behind. A link is written
-    through: it stays, and what it points to is replaced. An OSError names the file, and a full disk where the block
-    raised another error because of it.
+    through: it stays, and what it points to is replaced. A RecordError tells of a folder, pipe, socket or device of
+    that name, which stays. An OSError names the file, and a full disk where the block raised another error because of
+    it.
     """
     given, path = os.fspath(path), Path(os.path.realpath(path))
+    refuse_irregular(given)
     temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex[:8]}.tmp")
     unfinished.add(temporary)
     try:
@@ -59,6 +61,12 @@ def replacing(path: Path | str) -> Iterator[Path]:
     finally:
         temporary.unlink(missing_ok=True)
         unfinished.discard(temporary)
+
+
+def refuse_irregular(path: Path | str) -> None:
+    """Raise a RecordError if there is something of a path's name that is no regular file, or link to one."""
+    if os.path.exists(path) and not os.path.isfile(path):
+        raise RecordError(f"{path}: this is no regular file, and is left alone; allowed: a file, or nothing")
 
 
 def write_text(path: Path | str, text: str) -> None:

@@ -12,12 +12,12 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from subslide import checksums, source_hash
+from subslide import checksums, scenes, source_hash
 from subslide.files import Stopped, write_text
 from subslide.keys import plain, schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
-from subslide.study import config, scene_options
+from subslide.study import config, outputs, scene_options
 from subslide.study.batches import read_batch, spec_text
 from subslide.study.yaml_files import read_yaml
 
@@ -60,54 +60,6 @@ def point_of(path: str | None, options: dict[str, str]) -> Point:
         note = f"subslide: {path}: bands: true has no meaning for one run and is left out"
         print(words.printable(note), file=sys.stderr)
     return point
-
-
-OTHER_FORMATS = frozenset({
-    *(".csv", ".tsv", ".txt", ".json", ".yaml", ".yml", ".parquet", ".zarr", ".xlsx"),
-    *(".png", ".svg", ".pdf", ".html", ".md", ".py", ".sha256"),
-})  # fmt: skip
-"""Ends of names that promise something else than a record."""
-
-
-def check_output(path: str, inputs: list[str]) -> None:
-    """Raise a ConfigError unless a record can be written.
-
-    Parameters
-    ----------
-    path
-        Where it is to be; a link is written through.
-    inputs
-        Files that it must not be.
-
-    Raises
-    ------
-    ConfigError
-        If the path is a folder, an input, or no regular file, names another format, or lies in a folder that is missing
-        or cannot be written to.
-    """
-    name = f"--output: {words.show(path)}"
-    if plain.control(path):
-        raise ConfigError(f"{name} has a control character; allowed: the path of a file")
-    target = Path(os.path.realpath(path))
-    folder = target.parent
-    try:
-        if target.is_dir() or path.endswith("/"):
-            raise ConfigError(f"{name} is a folder; allowed: the path of a file")
-        if target.is_symlink():
-            raise ConfigError(f"{name} is a link to itself; allowed: the path of a file")
-        if target.exists() and not target.is_file():
-            raise ConfigError(f"{name} is not a regular file; allowed: the path of a file")
-        if not folder.is_dir():
-            raise ConfigError(f"{name}: the folder {words.show(str(folder))} does not exist")
-        if any(target.exists() and target.samefile(other) for other in inputs if os.path.exists(other)):
-            raise ConfigError(f"{name} is the input; allowed: the path of another file")
-        if target.suffix.lower() in OTHER_FORMATS:
-            raise ConfigError(f"{name}: a record is a NetCDF file; allowed: a name that ends in .nc")
-        probe = folder / f".{target.name}.{os.getpid()}.probe"
-        probe.touch(exist_ok=False)
-        probe.unlink()
-    except OSError as error:
-        raise ConfigError(f"{name} cannot be written: {error.strerror}") from None
 
 
 def set_threads(threads: int) -> None:
@@ -168,11 +120,15 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
     Raises
     ------
     ConfigError
-        If the file is no batch file, see `study.batches.read_batch`.
+        If the file is no batch file, see `study.batches.read_batch`, or an output is none, see `study.outputs.check`.
     """
     from subslide.study.locks import at_work
 
     points = read_batch(spec)
+    inputs = {spec, *(file for point in points for file in scenes.files(point))}
+    outputs.check_sealed(output, inputs)
+    if ledger is not None:
+        outputs.check(ledger, [*inputs, output, checksums.beside(output)], "--ledger", ".json")
     results: list[Run] = []
     with at_work(Path(os.path.realpath(output)).parent):
         try:

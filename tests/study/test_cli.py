@@ -12,6 +12,7 @@ import pytest
 
 import subslide
 from subslide.__main__ import main
+from subslide.commands import cli
 from subslide.keys import schema, words
 from subslide.points import RUN_KEYS
 from subslide.records.netcdf import read
@@ -70,7 +71,13 @@ def complaint(capsys, *arguments):
 
 @pytest.mark.parametrize("arguments", BAD, ids=" ".join)
 def test_bad_options_of_run(arguments, capsys):
-    line = complaint(capsys, "run", *QUICK, *arguments, "-o", "x.nc")
+    quick = [
+        word
+        for pair in zip(QUICK[::2], QUICK[1::2], strict=True)
+        if pair[0] not in arguments
+        for word in pair
+    ]
+    line = complaint(capsys, "run", *quick, *arguments, "-o", "x.nc")
     for part in BAD[arguments]:
         assert part in line
 
@@ -148,7 +155,7 @@ def test_an_output_is_a_regular_file_or_a_link_to_one(capsys):
     for output in ("pipe.nc", "to_pipe.nc"):
         assert "not a regular file" in complaint(capsys, "run", *QUICK, "-o", output)
     assert "NetCDF" in complaint(capsys, "run", *QUICK, "-o", "table.csv")
-    Path("kept.nc").write_text("old")
+    Path("kept.nc").touch()
     os.symlink("kept.nc", "link.nc")
     assert main(["run", *QUICK, "-o", "link.nc"]) == 0
     assert os.path.islink("link.nc")
@@ -279,3 +286,45 @@ def test_a_locale_without_greek_letters_stops_nothing():
     assert done.returncode == 0, done.stderr
     assert b"max|?|" in done.stdout
     assert read("x.nc")[1]["status"] == "ok"
+
+
+@pytest.mark.parametrize(
+    "name",
+    [name for name, verb in cli.commands.items() if any(p.param_type_name == "option" for p in verb.params)],
+)
+def test_an_option_is_given_once(capsys, name):
+    verb = cli.commands[name]
+    option = next(p for p in verb.params if getattr(p, "metavar", None) and p.param_type_name == "option")
+    line = (name, *["x" for p in verb.params if p.param_type_name == "argument"])
+    words = [*line, option.opts[0], "1", option.opts[-1], "2"]
+    if option.multiple:
+        assert "given twice" not in complaint(capsys, *words)
+    else:
+        flag = max(option.opts, key=len)
+        assert complaint(capsys, *words) == f"subslide: {flag}: given twice; allowed: each option once\n"
+
+
+def test_a_switch_and_its_opposite_are_one_option(capsys):
+    assert "--fields: given twice" in complaint(
+        capsys, "run", *QUICK, "--fields", "--no-fields", "-o", "x.nc"
+    )
+
+
+def test_an_error_is_of_standard_output_only_if_that_is_written(tmp_path, monkeypatch, capsys):
+    def fail(*_):
+        raise OSError("Could not load a library")
+
+    monkeypatch.setattr("subslide.jobs.run", fail)
+    assert main(["run", *QUICK, "-o", "x.nc"]) == 1
+    assert capsys.readouterr().err == "subslide: Could not load a library\n"
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    gone.rmdir()
+    assert main(["run", *QUICK, "-o", "x.nc"]) == 2
+    assert (
+        capsys.readouterr().err == "subslide: --output: x.nc cannot be written: No such file or directory\n"
+    )
+    monkeypatch.setattr("subslide.study.outputs.check", lambda *_: os.getcwd())
+    assert main(["run", *QUICK, "-o", "x.nc"]) == 1
+    assert capsys.readouterr().err == "subslide: the current folder: No such file or directory\n"

@@ -17,8 +17,22 @@ MODULES = tuple(f"{__name__}.{name}" for name in ("solving", "making", "tabulati
 """Modules with verbs, in the order that help lists them."""
 
 
+class Verb(click.Command):
+    """Command that takes each option once, unless it says that it takes more."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Return the words that are left over; UsageError if an option is given twice, where click takes the last."""
+        given = self.make_parser(ctx).parse_args(list(args))[2]
+        for option in given:
+            if isinstance(option, click.Option) and not option.multiple and given.count(option) > 1:
+                raise click.UsageError(f"{max(option.opts, key=len)}: given twice; allowed: each option once")
+        return super().parse_args(ctx, args)
+
+
 class Verbs(click.Group):
     """Group of commands that lists them in the order they were written, and names the nearest to a mistyped one."""
+
+    command_class = Verb
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of the commands."""
@@ -29,10 +43,9 @@ class Verbs(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """Return the command that is called; UsageError, with what is allowed, if there is none."""
         if args and args[0] not in self.commands:
-            hint = words.closest(args[0], self.commands)
-            raise click.UsageError(
-                f"{args[0]}: there is no such command; allowed: {', '.join(self.commands)}{hint}"
-            )
+            known = [name for name, command in self.commands.items() if not command.hidden]
+            hint = words.closest(args[0], known)
+            raise click.UsageError(f"{args[0]}: there is no such command; allowed: {', '.join(known)}{hint}")
         return super().resolve_command(ctx, args)
 
     def invoke(self, ctx: click.Context) -> object:

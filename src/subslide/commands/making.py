@@ -1,10 +1,17 @@
 """Verbs that the workflow calls while it makes a study, and `unlock` for the time after a killed one."""
 
+import json
+import os
 from pathlib import Path
 
 import click
 
 from subslide.commands import cli
+from subslide.keys import words
+from subslide.keys.schema import ConfigError
+
+MOST_BYTES = 1_000_000_000
+"""Size from which on a file is no list of points."""
 
 
 @cli.command()
@@ -20,20 +27,29 @@ def batch(spec: str, threads: int, ledger: str | None, output: str) -> None:
     """Solve the points of a batch file, SPEC, into one record with its SHA-256 beside it."""
     from subslide import jobs
 
-    jobs.check_output(output, inputs=[spec])
     jobs.set_threads(threads)
     jobs.batch(spec, threads, output, ledger, click.echo)
 
 
-@cli.command()
+@cli.command(hidden=True)
 @click.argument("source")
-@click.option("-o", "--output", required=True, metavar="FILE", help="the copy")
+@click.option("-o", "--output", required=True, metavar="FILE.json", help="the copy")
 def keep(source: str, output: str) -> None:
-    """Copy a text, SOURCE, whole or not at all, with its SHA-256 beside it."""
+    """Copy the list of a study's points, SOURCE, whole or not at all, with its SHA-256 beside it."""
     from subslide import checksums
     from subslide.files import write_text
+    from subslide.study import outputs
+    from subslide.study.yaml_files import read_text
 
-    write_text(output, Path(source).read_text(encoding="utf-8"))
+    text = read_text(source, MOST_BYTES)
+    try:
+        points = json.loads(text)["points"]
+    except (ValueError, TypeError, KeyError, RecursionError):
+        points = None
+    if not isinstance(points, list):
+        raise ConfigError(f"{source}: this is no list of a study's points; allowed: JSON with the key points")
+    outputs.check_sealed(output, [source], ".json")
+    write_text(output, text)
     checksums.seal(output)
 
 
@@ -60,6 +76,14 @@ def report(results: str, captions: str | None, output: str) -> None:
     from subslide.files import write_text
     from subslide.pages import report as page
     from subslide.results import Results
+    from subslide.study import outputs
 
+    if captions is not None and not os.path.isdir(captions):
+        raise ConfigError(
+            f"--captions: {words.show(captions)} is no folder; allowed: a folder of texts, NAME.rst"
+        )
+    folder = Path(results)
+    inputs = outputs.of_study(folder, but=[folder / "report.html"])
+    outputs.check(output, [*inputs, *Path(captions or results).glob("*.rst")], end=".html")
     write_text(output, page.text(Results(results), Path(captions) if captions else None))
     checksums.seal(output, sources=source_hash("page", "report"))

@@ -27,9 +27,13 @@ def docs() -> None:
     """Write the pages of documentation that follow from the code, in the repository that is the current folder."""
     from subslide import pages
     from subslide.files import write_text
+    from subslide.study import outputs
 
-    for path, text in pages.generated().items():
+    texts = pages.generated()
+    for path in texts:
         if not Path(path).parent.is_dir():
             raise ConfigError(f"{path}: there is no such folder here; allowed: the root of the repository")
+        outputs.check(path, (), "docs", Path(path).suffix)
+    for path, text in texts.items():
         write_text(path, text)
         click.echo(path)

@@ -69,11 +69,12 @@ def run(config: str | None, threads: int, output: str, **options: Any) -> None:
     Exit status: 0 when a record was written, whatever its status; 2 for bad input; 1 for a fault.
     """
     from subslide import jobs, scenes
+    from subslide.study import outputs
 
     gc.disable()  # a seventh of the start-up time went into looking for cycles among imported modules
     options = {key: value for key, value in options.items() if value is not None}
     point = jobs.point_of(config, options)
-    jobs.check_output(output, inputs=[*([config] if config else []), *scenes.files(point)])
+    outputs.check(output, [*([config] if config else []), *scenes.files(point)])
     caution([point])
     jobs.set_threads(threads)
     click.echo(jobs.run(point, threads, output))

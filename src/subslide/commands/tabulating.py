@@ -1,6 +1,7 @@
 """Verbs that write the tables of a study: `table` for any of them, and a verb each for some."""
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import click
@@ -11,6 +12,9 @@ from subslide.keys.schema import ConfigError
 
 MISSED = 1
 """Exit status of `verify` where a required order is not reached."""
+
+MOST_BYTES = 10_000_000
+"""Size from which on a file is no page."""
 
 results_argument = click.argument("results")
 page_option = click.option(
@@ -36,17 +40,46 @@ def write(name: str, folder: str) -> None:
         click.echo(str(path))
 
 
-def renew(path: str, page: str, folder: str) -> None:
-    """Write the table of a page of documentation anew, by the module of `subslide.pages` called `page`."""
+def renewer(page: str, folder: str, *paths: str | None) -> Callable[[], None]:
+    """Return a function that writes the tables of pages of documentation anew; the pages are checked at once.
+
+    Parameters
+    ----------
+    page
+        Module of `subslide.pages` that makes them.
+    folder
+        Folder of the study.
+    paths
+        The pages; None is left out.
+
+    Returns
+    -------
+    callable
+        To be called once the study's tables are written.
+    """
     import importlib
 
     from subslide.files import write_text
+    from subslide.pages import renewal
     from subslide.results import Results
+    from subslide.study import outputs
+    from subslide.study.yaml_files import read_text
 
-    if not os.path.isfile(path):
-        raise ConfigError(f"--output: {words.show(path)}: there is no such file; allowed: a page to renew")
-    text = Path(path).read_text(encoding="utf-8")
-    write_text(path, importlib.import_module(f"subslide.pages.{page}").page(text, Results(folder)))
+    texts = {}
+    for path in (path for path in paths if path is not None):
+        outputs.check(path, outputs.of_study(Path(folder), but=[Path(path)]), end=".md")
+        if not os.path.isfile(path):
+            raise ConfigError(
+                f"--output: {words.show(path)}: there is no such file; allowed: a page to renew"
+            )
+        texts[path] = read_text(path, MOST_BYTES)
+        renewal.marked(texts[path], importlib.import_module(f"subslide.pages.{page}").MARKS)
+
+    def renew() -> None:
+        for path, text in texts.items():
+            write_text(path, importlib.import_module(f"subslide.pages.{page}").page(text, Results(folder)))
+
+    return renew
 
 
 @cli.command()
@@ -91,6 +124,7 @@ def verify(results: str, output: str | None) -> int:
     from subslide.results import Results
     from subslide.tables import _orders
 
+    renew = renewer("verification", results, output)
     rows = Results(results).errors
     if rows.empty:
         raise ConfigError(
@@ -98,8 +132,7 @@ def verify(results: str, output: str | None) -> int:
         )
     lines = _orders.lines(rows)
     click.echo(_orders.text(lines))
-    if output is not None:
-        renew(output, "verification", results)
+    renew()
     missed = [line for line in lines if line.missed]
     for line in missed:
         click.echo(f"subslide: required, but {line.verdict}: {', '.join(line.words()[:4])}", err=True)
@@ -120,10 +153,10 @@ def work_precision(results: str, output: tuple[str, ...]) -> None:
 
     Writes RESULTS/tables/work_precision.csv and cheapest.csv, and prints the cheapest choices.
     """
+    renew = renewer("work_precision", results, *output)
     write("work_precision", results)
     write("cheapest", results)
-    for path in output:
-        renew(path, "work_precision", results)
+    renew()
 
 
 @cli.command()
@@ -131,9 +164,9 @@ def work_precision(results: str, output: tuple[str, ...]) -> None:
 @page_option
 def atlas(results: str, output: str | None) -> None:
     """Write the stability atlas of a study and print how each method did; RESULTS is the study's folder."""
+    renew = renewer("stability", results, output)
     write("atlas", results)
-    if output is not None:
-        renew(output, "stability", results)
+    renew()
 
 
 @cli.command()

@@ -50,10 +50,12 @@ def save(name: str, results: Path, output: Path) -> list[Path]:
     matplotlib.rcdefaults()  # whatever the user's matplotlibrc says
     matplotlib.rcParams["svg.hashsalt"] = "subslide"
     from subslide.results import Results
+    from subslide.study import outputs
 
+    paths = [output / f"{name}.{suffix}" for suffix in ("png", "svg")]
+    outputs.check_made(paths, results)
     drawn = importlib.import_module(f"subslide.figures.{name}").draw(Results(results))
     output.mkdir(parents=True, exist_ok=True)
-    paths = [output / f"{name}.{suffix}" for suffix in ("png", "svg")]
     for path, metadata in zip(paths, ({"Software": None}, {"Date": None}), strict=True):
         with replacing(path) as temporary:
             drawn.savefig(temporary, format=path.suffix[1:], dpi=200, bbox_inches="tight", metadata=metadata)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import subslide
 from subslide import catalogue, points
 from subslide.naming import FINISHED, STATUSES
+from subslide.study.yaml_files import read_text
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -130,7 +131,7 @@ def _caption(captions: Path | None, name: str) -> str:
     path = captions / f"{name}.rst" if captions else None
     if path is None or not path.is_file():
         return ""
-    return re.sub("``(.*?)``", r"<code>\1</code>", _safe(" ".join(path.read_text(encoding="utf-8").split())))
+    return re.sub("``(.*?)``", r"<code>\1</code>", _safe(" ".join(read_text(path, MOST_SHOWN).split())))
 
 
 def _rows(runs: "pd.DataFrame") -> str:

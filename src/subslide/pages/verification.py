@@ -4,6 +4,8 @@ from subslide.pages import renewal
 from subslide.results import Results
 from subslide.tables import _orders
 
+MARKS = (renewal.LAST_RUN,)
+
 
 def page(text: str, results: Results) -> str:
     """Return the page `text` with the errors and orders of a study; ConfigError without the marks or the table."""

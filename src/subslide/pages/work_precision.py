@@ -1,12 +1,12 @@
 """Pages that quote error against seconds: their tables are those of the last run of a study that sweeps numerics."""
 
-from subslide.keys.schema import ConfigError
 from subslide.pages import renewal
 from subslide.results import Results
 from subslide.tables import _choices
 
 CHOICES = ("<!-- cheapest choices of the last run -->", "<!-- end of the cheapest choices -->")
 EQUAL = ("<!-- equal accuracy of the last run -->", "<!-- end of equal accuracy -->")
+MARKS = (CHOICES, EQUAL)
 
 
 def page(text: str, results: Results) -> str:
@@ -15,9 +15,6 @@ def page(text: str, results: Results) -> str:
         CHOICES: _choices.choices(results.table("cheapest")),
         EQUAL: _choices.equal(results.table("work_precision")),
     }
-    known = [marks for marks in rows if marks[0] in text]
-    if not known:
-        raise ConfigError(f"--output: the page has neither the line '{CHOICES[0]}' nor '{EQUAL[0]}'")
-    for marks in known:
+    for marks in renewal.marked(text, MARKS):
         text = renewal.renewed(text, marks, rows[marks])
     return text

@@ -59,7 +59,8 @@ def read(path: Path | str) -> tuple[dict[str, Variable], dict]:
     if not path.is_file():
         raise RecordError(f"{path}: there is no such record")
     try:
-        with netCDF4.Dataset(os.fspath(path)) as data:
+        # by its bytes: the library takes a backslash in a path for a slash
+        with netCDF4.Dataset("record", memory=path.read_bytes()) as data:
             data.set_auto_maskandscale(False)
             variables = {
                 name: Variable(v.dimensions, _values(v), {key: v.getncattr(key) for key in v.ncattrs()})

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from subslide import checksums, source_hash, tables
 from subslide.files import replacing, write_text
+from subslide.study import outputs
 
 if TYPE_CHECKING:
     from subslide.results import Results
@@ -39,6 +40,7 @@ def write(name: str, results: "Results") -> list[Path]:
     module = tables.load(name)
     folder = results.folder / "tables"
     paths = [folder / file for file in tables.files(name, len(results.runs_of_study))]
+    outputs.check_made([*paths, *map(checksums.beside, paths)], results.folder)
     if hasattr(module, "write"):
         folder.mkdir(exist_ok=True)
         with replacing(paths[0]) as temporary:
