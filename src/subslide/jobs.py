@@ -139,8 +139,8 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
         except BaseException as error:
             if not (ledger and results):
                 raise
-            part = unused_part(ledger)
-            keep_batch(results, str(Path(output).with_name(f"{part.stem}.nc")), str(part))
+            part, record = unused_part(ledger, output)
+            keep_batch(results, str(record), str(part))
             said = f"stopped: the {len(results)} runs that were solved are kept as batch {part.stem}"
             if isinstance(error, KeyboardInterrupt | Stopped):
                 raise Stopped(getattr(error, "signal", signal.SIGINT), said) from None
@@ -161,11 +161,15 @@ def keep_batch(results: list["Run"], output: str, ledger: str | None) -> None:
         write_text(ledger, text)
 
 
-def unused_part(ledger: str) -> Path:
-    """Return the path, beside a batch's file of the ledger, of the first part of it that is not there."""
-    path = Path(ledger)
-    parts = (path.with_name(f"{path.stem}p{n}.json") for n in itertools.count(1))
-    return next(part for part in parts if not part.exists())
+def unused_part(ledger: str, output: str) -> tuple[Path, Path]:
+    """Return the paths, beside those of a batch, of the ledger's file and record of the first part not yet there."""
+    stem = Path(ledger).stem
+    for number in itertools.count(1):
+        part = Path(ledger).with_name(f"{stem}p{number}.json")
+        record = Path(output).with_name(f"{part.stem}.nc")
+        if not any(os.path.lexists(path) for path in (part, record, checksums.beside(record))):
+            break
+    return part, record
 
 
 def warm(kernels: tuple[str, ...]) -> Iterator[str]:

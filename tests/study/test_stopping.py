@@ -63,9 +63,10 @@ def checked_ids(record):
 
 
 def test_what_a_failed_job_has_solved_is_kept(study, tmp_path, monkeypatch, make_run):
-    """Twice: parts have numbers, and each is a batch."""
+    """Twice: parts have numbers, and each is a batch; one whose record's name is taken is left out."""
 
     failing = set()
+    (tmp_path / "records/0001p2.nc").write_bytes(b"mine")
 
     def solve(point, threads):
         if point.a_H in failing:
@@ -79,7 +80,8 @@ def test_what_a_failed_job_has_solved_is_kept(study, tmp_path, monkeypatch, make
         failing.add(a_H)
         with pytest.raises(MemoryError):
             jobs.batch(paths[0], 1, paths[1], paths[2], lines.append)
-    assert lines[-1] == "stopped: the 2 runs that were solved are kept as batch 0001p2"
+    assert lines[-1] == "stopped: the 2 runs that were solved are kept as batch 0001p3"
+    assert (tmp_path / "records/0001p2.nc").read_bytes() == b"mine"
     assert left(study, tmp_path) == len(study.points) - 3
     failing.clear()
     jobs.batch(paths[0], 1, paths[1], paths[2], lines.append)
