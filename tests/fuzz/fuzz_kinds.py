@@ -9,7 +9,7 @@ KINDS = {
     "config values": (110, lambda rng, count, finished: fuzz_values.config_values(rng, count)),
     "option values": (60, lambda rng, count, finished: fuzz_values.option_values(rng, count)),
     "YAML files": (70, lambda rng, count, finished: fuzz_values.yaml_files(rng, count)),
-    "options": (90, lambda rng, count, finished: fuzz_options.options(rng, count, finished)),
+    "options": (110, lambda rng, count, finished: fuzz_options.options(rng, count, finished)),
     "rasters": (50, lambda rng, count, finished: fuzz_rasters.rasters(rng, count)),
     "records": (45, lambda rng, count, finished: fuzz_studies.records(finished, rng, count)),
     "tables": (45, lambda rng, count, finished: fuzz_studies.tables(finished, rng, count)),

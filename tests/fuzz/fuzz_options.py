@@ -150,6 +150,10 @@ def options(rng: random.Random, count: int, source: Path) -> list[Input]:
         add(f"run: output is {name}", [*RUN, "-o", word], ("output",), make)
         both = lambda folder, make=make: (make(folder), spec(folder))  # noqa: E731
         add(f"batch: output is {name}", ["batch", "b.json", "-o", word], ("output",), both)
+        words = ["batch", "b.json", "-o", "o.nc", "--ledger", word]
+        add(f"batch: ledger is {name}", words, ("ledger",), both)
+        of_study = lambda folder, make=make: (make(folder), study(folder))  # noqa: E731
+        add(f"report: output is {name}", ["report", "t", "-o", word], ("output",), of_study)
     for word in ("c.yaml", "l", "h", "./c.yaml"):
         words = [*RUN, "--config=c.yaml", "-o", word]
         add(f"output is the input by {word}", words, ("output",), config)
