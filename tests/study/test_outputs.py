@@ -15,6 +15,7 @@ from subslide.files import RecordError, write_text
 from subslide.keys.schema import ConfigError
 from subslide.pages import renewal
 from subslide.records import netcdf
+from subslide.results import Results
 from subslide.study import batches, config, outputs, plan
 
 QUICK = ("--model", "radial", "--cells", "20", "--t-end", "0.02")
@@ -139,6 +140,14 @@ def test_a_backslash_is_named_where_the_library_would_misread_it(folder, refused
     assert netcdf.read(odd / "y.nc")[1]["cells"] == 40
     monkeypatch.chdir(odd)
     assert "NetCDF takes" in refused("run", *QUICK, "-o", "z.nc")
+
+
+def test_a_study_in_a_folder_with_a_backslash_gives_tables_and_names_it_where_it_cannot(study, capsys):
+    study.rename("b\\t")
+    assert main(["table", "runs", "b\\t"]) == 0
+    capsys.readouterr()
+    with pytest.raises(ConfigError, match="folders, without backslashes"):
+        Results("b\\t").record(Results("b\\t").runs_of_study[0].id)
 
 
 @pytest.mark.parametrize(

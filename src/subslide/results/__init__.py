@@ -4,6 +4,7 @@ import csv
 import functools
 import json
 import math
+import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, overload
@@ -215,9 +216,11 @@ class Results:
 
 
 def open_record(path: Path | str) -> "xr.Dataset":
-    """Return the dataset of a record, lazy (dask), with times as plain seconds."""
+    """Return the dataset of a record, lazy (dask), with times as plain seconds; ConfigError if its path cannot be."""
     import xarray as xr
 
+    if "\\" in os.path.abspath(path):
+        raise ConfigError(f"{path}: NetCDF takes '\\' for '/'; allowed: a path, and folders, without backslashes")
     return xr.open_dataset(path, engine="netcdf4", chunks={}, decode_times=False)
 
 
