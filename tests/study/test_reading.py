@@ -1,7 +1,10 @@
 """Tables and records that are not those of their study are named in one line, also under a checksum that fits."""
 
 import json
+import os
 import shutil
+import subprocess
+import sys
 
 import pytest
 
@@ -23,7 +26,9 @@ def folder(whole, tmp_path, solve_study, write_tables, make_run):
     """Folder of a study of two runs, made up."""
     if not whole.exists():
         whole.mkdir()
-        study = config.make_study({"study": "t", "model": "radial", "cells": 40, "a_H": [1, 2], "t_end": 1})
+        study = config.make_study(
+            {"study": "t", "model": "radial", "cells": 40, "a_H": [1, 2], "r": 0.4, "t_end": 1}
+        )
         solve_study(study, whole, lambda points: [make_run(point) for point in points])
         write_tables(whole)
     return shutil.copytree(whole, tmp_path / "t")
@@ -118,3 +123,31 @@ def test_a_run_that_points_json_has_twice_is_refused(folder):
     seal(path)
     with pytest.raises(RecordError, match=f"points.json .*{index['points'][0]['id']} is there twice"):
         Results(folder).runs_of_study  # noqa: B018 - asking is what fails
+
+
+@pytest.mark.parametrize("name", ["atlas", "errors", "cfl", "claims", "bands", "work_precision", "cheapest"])
+def test_a_table_that_a_study_does_not_get_is_refused_and_left_out(folder, name, capsys):
+    before = sorted((folder / "tables").iterdir())
+    verbs = [["table", name], *([[name]] if name in ("atlas", "errors", "cfl", "claims") else [])]
+    for verb in verbs:
+        assert main([*verb, str(folder)]) == 2
+        said = capsys.readouterr()
+        assert said.out == ""
+        (line,) = said.err.splitlines()
+        assert f"this study gets no table {name}; allowed: a study with " in line
+    assert sorted((folder / "tables").iterdir()) == before
+
+
+@pytest.mark.parametrize("name", ["work_precision", "fig04_profiles_r0", "verify_orders", "stability_cfl"])
+def test_a_figure_whose_runs_a_study_lacks_is_refused_and_not_drawn(folder, name, capsys):
+    assert main(["figure", name, "--results", str(folder), "-o", str(folder / "out")]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert f"{name} needs runs with " in line
+    assert not (folder / "out").exists()
+
+
+def test_matplotlib_without_a_folder_of_settings_draws_in_silence(folder, monkeypatch):
+    monkeypatch.setenv("MPLCONFIGDIR", os.devnull)
+    verb = ["figure", "fig06_fronts", "--results", str(folder), "-o", str(folder / "out")]
+    done = subprocess.run([sys.executable, "-m", "subslide", *verb], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
