@@ -65,6 +65,13 @@ HARM = {
     "wide rows": each_row(lambda row: row + ",5"),
     "Latin 1": lambda text: text.replace("ok", "\udce9k").replace("x_front", "\udce9"),
 }
+OF_SERIES = {
+    "infinite times": each_row(lambda row: row.replace("0.", "1e400")),
+    "times below 0": each_row(lambda row: row.replace(",0.", ",-0.")),
+    "a run's rows in another order": lambda text: "\n".join(
+        [text.splitlines()[0], *sorted(text.splitlines()[1:], reverse=True), ""]
+    ),
+}
 OF_RUNS = {
     "infinite": each_row(lambda row: row.replace("0.", "1e400")),
     "huge": each_row(lambda row: row.replace(",0.", ",9e300")),
@@ -78,8 +85,9 @@ OF_RUNS = {
     [
         *((name, harm) for name in ("runs", "series") for harm in HARM.values()),
         *(("runs", harm) for harm in OF_RUNS.values()),
+        *(("series", harm) for harm in OF_SERIES.values()),
     ],
-    ids=[*(f"{name}: {harm}" for name in ("runs", "series") for harm in HARM), *OF_RUNS],
+    ids=[*(f"{name}: {harm}" for name in ("runs", "series") for harm in HARM), *OF_RUNS, *OF_SERIES],
 )
 def test_a_table_that_is_none_of_the_study_is_named_in_one_line(folder, name, harm, capsys):
     path = folder / f"tables/{name}.csv"
@@ -151,3 +159,15 @@ def test_matplotlib_without_a_folder_of_settings_draws_in_silence(folder, monkey
     verb = ["figure", "fig06_fronts", "--results", str(folder), "-o", str(folder / "out")]
     done = subprocess.run([sys.executable, "-m", "subslide", *verb], capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("content", [b"", b"PAR1", b"PAR1" + bytes(60) + b"PAR1", b"id,time\n"])
+def test_a_parquet_table_that_is_none_is_named_in_one_line(folder, content, capsys):
+    (folder / "tables/series.csv").unlink()
+    path = folder / "tables/series.parquet"
+    path.write_bytes(content)
+    seal(path)
+    verb = ["figure", "fig06_fronts", "--results", str(folder), "-o", str(folder / "out")]
+    assert main(verb) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "series.parquet is not the table series of this study" in line

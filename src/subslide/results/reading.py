@@ -1,7 +1,6 @@
 """Tables of a study as they are read: held against their module and the study's runs, whatever their checksum says."""
 
 import os
-import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -62,8 +61,8 @@ def table(path: Path, name: str, runs: Sequence[StudyRun]) -> "pd.DataFrame":
                     raise ValueError("its last line is not whole")
             rows = pd.read_csv(path, keep_default_na=False, na_values=[""], low_memory=False)
         _check(rows, name, runs)
-    except (ValueError, OSError) as error:
-        what = words.cut(re.sub(r"\s+", " ", str(error)), 120)
+    except (ValueError, TypeError, NotImplementedError, OSError) as error:
+        what = words.cut(words.one_line(str(error)), 120)
         raise RecordError(f"{path} is not the table {name} of this study ({what}); {AGAIN}") from None
     return rows
 
@@ -101,13 +100,16 @@ def _check_ids(ids: "pd.Series", name: str, known: list[str]) -> None:
 
 
 def _check_samples(rows: "pd.DataFrame") -> None:
-    """Raise a ValueError unless all quantities of a run have equally many samples."""
+    """Raise a ValueError unless all quantities of a run have equally many samples, at times that go on."""
     changes = (rows["id"] != rows["id"].shift()) | (rows["quantity"] != rows["quantity"].shift())
+    time = rows["time"].to_numpy()
+    if not np.all((time >= 0) & (time < MOST) & (changes | (time >= np.roll(time, 1)))):
+        raise ValueError("time: not all are times that follow each other")
     starts = np.flatnonzero(changes)
-    counts = rows["id"].iloc[starts].to_frame().assign(count=np.diff(starts, append=len(rows)))
-    uneven = counts.groupby("id")["count"].nunique() > 1
-    if uneven.any():
-        raise ValueError(f"{uneven.idxmax()}: its quantities have not equally many samples")
+    parts = rows[["id", "quantity"]].iloc[starts].assign(count=np.diff(starts, append=len(rows)))
+    uneven = parts.groupby("id")["count"].nunique() > 1
+    if uneven.any() or parts.duplicated(["id", "quantity"]).any():
+        raise ValueError("its quantities have not equally many samples, those of each together")
 
 
 def _check_runs(rows: "pd.DataFrame", runs: Sequence[StudyRun], numbers: Sequence[str]) -> None:
