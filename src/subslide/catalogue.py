@@ -6,6 +6,7 @@ not wait for plotting libraries. A file whose name begins with '_' is a helper a
 
 import ast
 import functools
+import importlib
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -27,6 +28,13 @@ class Table(NamedTuple):
     category: str
     reads: tuple[str, ...]
     kernels: tuple[str, ...]
+
+
+class Layout(NamedTuple):
+    """Columns of a table in order, and those that hold numbers alone."""
+
+    columns: tuple[str, ...]
+    numbers: tuple[str, ...]
 
 
 def names(room: str) -> list[str]:
@@ -97,18 +105,12 @@ def options_that_read(scene: str) -> frozenset[str]:
     )
 
 
-def columns(name: str) -> list[str]:
-    """Return the columns of a table whose names its module states as they are.
-
-    Raises
-    ------
-    ValueError
-        If the module has no mapping COLUMNS.
-    """
-    stated = _constants("tables", name).get("COLUMNS")
-    if not isinstance(stated, ast.Dict):
-        raise ValueError(f"the table {name} has no COLUMNS")
-    return [str(key.value) for key in stated.keys if isinstance(key, ast.Constant)]
+def layout(name: str) -> Layout:
+    """Return the columns of a table, by importing its module."""
+    module = importlib.import_module(f"{PACKAGE.name}.tables.{name}")
+    columns = tuple(module.COLUMNS)
+    others = getattr(module, "WORDS", columns)
+    return Layout(columns, tuple(column for column in columns if column not in others))
 
 
 def _constants(room: str, name: str) -> dict[str, ast.expr]:

@@ -12,7 +12,7 @@ import subslide
 
 PACKAGE = Path(subslide.__file__).parent
 ROOMS = (
-    ("the bottom", ("_sources", "_cache", "catalogue", "files", "checksums", "naming")),
+    ("the bottom", ("_early", "_sources", "_cache", "catalogue", "files", "checksums", "naming")),
     ("what may be asked", ("keys",)),
     ("one run's values", ("points",)),
     ("initial states", ("scenes",)),
@@ -33,7 +33,7 @@ ROOMS = (
 
 FLOOR = {name: floor for floor, (_, names) in enumerate(ROOMS) for name in names}
 NARROW = {
-    "__init__": {"_sources", "_cache"},
+    "__init__": {"_early", "_sources", "_cache"},
     "kernels": {"kernels", "naming", "keys.names", "_sources"},
     "scenes": {"scenes", "keys", "points", "catalogue"},
 }

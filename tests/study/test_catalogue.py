@@ -60,8 +60,14 @@ def test_what_a_plain_study_lacks_for_a_table_is_told(name):
     assert tables.load(name).needs(plain).startswith(NEEDED)
 
 
-def test_columns_and_literals_are_read_from_sources():
-    assert catalogue.columns("bands") == list(tables.load("bands").COLUMNS)
+def test_a_table_says_which_of_its_columns_hold_numbers():
+    assert catalogue.layout("bands").columns == tuple(tables.load("bands").COLUMNS)
+    assert set(catalogue.layout("bands").numbers) == set(catalogue.layout("bands").columns) - {
+        *("id", "quantity", "convergence")
+    }
+
+
+def test_literals_are_read_from_sources():
     assert catalogue.literals("tables", "cfl")["KERNELS"] == tables.load("cfl").KERNELS
     assert set(catalogue.figure("fig05_h2_by_r").needs) <= set(RUN_KEYS)
     assert imported("tables", "claims") >= {
@@ -74,16 +80,10 @@ def test_columns_and_literals_are_read_from_sources():
 
 def test_constants_with_a_type_are_read_too(tmp_path, monkeypatch):
     (tmp_path / "tables").mkdir()
-    text = (
-        'TITLE: str = "a title"\nREADS = ("runs",)\nLATER: int\nCOLUMNS: dict[str, tuple] = {"a": ("", "")}\n'
-    )
+    text = 'TITLE: str = "a title"\nREADS = ("runs",)\nLATER: int\n'
     (tmp_path / "tables" / "typed.py").write_text(text)
-    (tmp_path / "tables" / "bare.py").write_text("TITLE = 'no columns'\n")
     monkeypatch.setattr(catalogue, "PACKAGE", tmp_path)
     assert catalogue.table("typed") == ("a title", "5 Tables", ("runs",), ())
-    assert catalogue.columns("typed") == ["a"]
-    with pytest.raises(ValueError, match="bare has no COLUMNS"):
-        catalogue.columns("bare")
 
 
 def test_parts_of_the_sources_follow_the_rooms(tmp_path, monkeypatch):

@@ -8,6 +8,7 @@ import pytest
 
 from subslide import exact
 from subslide.__main__ import main
+from subslide.keys import words
 from subslide.points import Point
 from subslide.solver import solve
 from subslide.study import cautions, config
@@ -102,6 +103,14 @@ def test_every_region_is_tested_and_says_what_to_choose():
         ]
         assert region.reason in line
         assert f"Choose {region.advice}" in line
+
+
+@pytest.mark.parametrize("region", cautions.REGIONS, ids=list(REGIONS))
+def test_a_caution_of_the_largest_study_is_not_cut(region, monkeypatch):
+    monkeypatch.setattr(cautions, "REGIONS", (region._replace(holds=lambda point: True),))
+    (line,) = cautions.cautions([None] * config.MOST_POINTS)
+    assert "(200000 of 200000 runs)" in line
+    assert len(f"subslide: {line}") <= words.MOST
 
 
 def test_every_region_was_seen_in_a_study(root):

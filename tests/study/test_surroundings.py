@@ -299,3 +299,36 @@ def test_short_launches_change_no_bit_and_tell_the_time_reached(monkeypatch):
         np.testing.assert_array_equal(getattr(parts, name), getattr(whole, name))
     for name, series in whole.series.items():
         np.testing.assert_array_equal(parts.series[name], series)
+
+
+def loading(name, doing):
+    """What a program called `name` says and returns that gets a signal while the package loads."""
+    code = (
+        f"import os, signal, sys; sys.argv = ['{name}']; {doing}\n"
+        "import subslide._early, importlib.abc\n"
+        "for name in [name for name in sys.modules if name.startswith('subslide')]: del sys.modules[name]\n"
+        "class Late(importlib.abc.MetaPathFinder):\n"
+        "    def find_spec(self, name, path, target=None):\n"
+        "        if name.startswith('subslide._cache'): os.kill(os.getpid(), number)\n"
+        "sys.meta_path.insert(0, Late())\n"
+        "import subslide\n"
+        "print('on')"
+    )
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+
+
+@pytest.mark.parametrize(("name", "status"), [("SIGINT", 130), ("SIGTERM", 143), ("SIGHUP", 129)])
+def test_a_signal_while_a_command_loads_ends_it_with_one_line(name, status):
+    done = loading("/bin/subslide", f"number = signal.{name}")
+    assert done.returncode == status
+    assert (done.stdout, done.stderr) == ("", "subslide: interrupted; nothing was written\n")
+
+
+def test_a_program_that_imports_the_package_keeps_its_signals():
+    done = loading("notebook.py", "number = signal.SIGINT")
+    assert "KeyboardInterrupt" in done.stderr
+
+
+def test_a_signal_that_is_ignored_stays_so_while_a_command_loads():
+    done = loading("subslide", "number = signal.SIGHUP; signal.signal(number, signal.SIG_IGN)")
+    assert (done.stdout, done.stderr) == ("on\n", "")

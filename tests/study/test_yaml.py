@@ -10,6 +10,7 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
+from subslide.__main__ import main
 from subslide.keys import plain, words
 from subslide.keys.schema import ConfigError
 from subslide.study import yaml_files
@@ -214,3 +215,25 @@ def test_a_printed_line_is_short_and_gives_no_orders_to_a_terminal():
     assert len(long) == words.MOST - 1
     assert long.startswith("key: \\x1b")
     assert long.endswith("; allowed: x")
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("r\x85: 1\n", r"line 1: there is the character \x85; allowed: text without control"),
+        ('"r\\x85": 1\n', r"line 1: the key r\x85 has a control character"),
+        ('study: t\nscheme: "h\u2028ll"\n', r"scheme: h\u2028ll is not allowed; allowed: one of ifcph"),
+        (
+            "study: t\nfigures: [fig06_fronts, fig06_fronts]\n",
+            "figures: fig06_fronts is there twice; allowed: ",
+        ),
+        ("MIT License\n\nPermission is granted\n", "allowed: lines of 'key: value'"),
+        ("include ../common.mk\nall: this\n\t@echo\n", "not valid YAML: "),
+        ("[project]\nname = 1\n", "allowed: lines of 'key: value'"),
+    ],
+)
+def test_what_is_odd_in_a_file_is_written_out(write_yaml, capsys, text, told):
+    assert main(["check", str(write_yaml(text))]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert told in line
+    assert line.isprintable()

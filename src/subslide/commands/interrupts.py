@@ -14,6 +14,7 @@ import time
 from types import FrameType
 from typing import Any, NoReturn
 
+from subslide import _early
 from subslide.files import Stopped, unfinished
 
 GRACE = 2.0
@@ -36,8 +37,8 @@ def listen() -> None:
     reader, writer = os.pipe()
     os.set_blocking(writer, False)
     signal.set_wakeup_fd(writer, warn_on_full_buffer=False)
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler):
+    for number in _early.SIGNALS:
+        if signal.getsignal(number) in (*_early.PYTHONS_OWN, _early.end):
             signal.signal(number, _hear)
     sys.unraisablehook = _lost
     threading.Thread(target=_watch, args=(reader,), daemon=True).start()

@@ -29,6 +29,8 @@ def write(name: str, folder: str) -> None:
     from subslide.tables import _write
 
     module, results = tables.load(name), Results(folder)
+    if lack := _write.lacking(name, results):
+        raise ConfigError(f"{folder}: this study gets no table {name}; allowed: a study with {lack}")
     if hasattr(module, "KERNELS"):
         from subslide import jobs
 

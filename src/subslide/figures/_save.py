@@ -1,6 +1,7 @@
 """Files of figures: the module of a figure is found, its figure of a finished study drawn and saved."""
 
 import importlib
+import logging
 import os
 from pathlib import Path
 
@@ -8,6 +9,8 @@ from subslide import catalogue, checksums, source_hash
 from subslide.files import replacing
 from subslide.keys import plain, words
 from subslide.keys.schema import ConfigError
+from subslide.results import Results
+from subslide.study import whole_study
 
 
 def save(name: str, results: Path, output: Path) -> list[Path]:
@@ -30,7 +33,7 @@ def save(name: str, results: Path, output: Path) -> list[Path]:
     Raises
     ------
     ConfigError
-        If there is no such figure, or the study has no table of runs.
+        If there is no such figure, or the study has no table of runs, or not the runs that it needs.
     """
     known = catalogue.names("figures")
     if name not in known:
@@ -43,18 +46,23 @@ def save(name: str, results: Path, output: Path) -> list[Path]:
         )
     if plain.control(str(output)) or (output.exists() and not output.is_dir()):
         raise ConfigError(f"--output: {output} is no folder; allowed: a folder, made if it is not there")
+    study = Results(results)
+    if lack := whole_study.lacking(name, [run.point for run in study.runs_of_study]):
+        raise ConfigError(
+            f"--results: {results}: {name} needs runs with {lack}, which this study does not have"
+        )
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it warns of a folder of settings that it lacks
     os.environ["MPLBACKEND"] = "Agg"  # a notebook names one that need not be here, and importing would fail
     import matplotlib
 
     matplotlib.use("Agg")
     matplotlib.rcdefaults()  # whatever the user's matplotlibrc says
     matplotlib.rcParams["svg.hashsalt"] = "subslide"
-    from subslide.results import Results
     from subslide.study import outputs
 
     paths = [output / f"{name}.{suffix}" for suffix in ("png", "svg")]
     outputs.check_made(paths, results)
-    drawn = importlib.import_module(f"subslide.figures.{name}").draw(Results(results))
+    drawn = importlib.import_module(f"subslide.figures.{name}").draw(study)
     output.mkdir(parents=True, exist_ok=True)
     for path, metadata in zip(paths, ({"Software": None}, {"Date": None}), strict=True):
         with replacing(path) as temporary:

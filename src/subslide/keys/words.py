@@ -3,6 +3,7 @@
 import difflib
 import json
 import math
+import re
 from collections.abc import Iterable
 from typing import Any
 
@@ -29,8 +30,13 @@ def printable(text: str, most: int = MOST) -> str:
         The line; control characters, halves of pairs and the like are written out, as in Python.
     """
     text = _cut_in_the_middle(text, 10 * most)  # so that a huge one takes no time
-    letters = (c if c.isprintable() else c.encode("unicode_escape").decode() for c in " ".join(text.split()))
+    letters = (c if c.isprintable() else c.encode("unicode_escape").decode() for c in one_line(text))
     return _cut_in_the_middle("".join(letters), most)
+
+
+def one_line(text: str) -> str:
+    """Return a text with single spaces for its blanks and ends of lines; other characters that look so stay."""
+    return re.sub("[ \t\r\n]+", " ", text).strip(" ")
 
 
 def _cut_in_the_middle(text: str, most: int) -> str:
@@ -96,9 +102,9 @@ def show(value: Any) -> str:
     if isinstance(value, float) and not math.isfinite(value):
         return {"nan": ".nan", "inf": ".inf", "-inf": "-.inf"}[str(value)]
     if isinstance(value, str):
-        return cut(" ".join(value.split()) if plain.is_text(value) else f"'{value}'") or "''"
+        return cut(one_line(value) if plain.is_text(value) else f"'{value}'") or "''"
     try:
-        return cut(" ".join(json.dumps(value, default=str).split()))
+        return cut(one_line(json.dumps(value, default=str)))
     except (
         ValueError,
         TypeError,
@@ -144,6 +150,9 @@ def refusal(about: Entry, value: Any, name: str) -> str:
     """
     end = f" ({unit_of(about)})" if unit_of(about) else ""
     allows = f"allowed: {range_of(about)}{end}"
+    once = any(part.get("uniqueItems") for part in (about, *about.get("anyOf", ())))
+    if once and isinstance(value, list) and (twice := [v for n, v in enumerate(value) if v in value[:n]]):
+        return f"{name}: {show(twice[0])} is there twice; {allows}, each once"
     if isinstance(value, str) and not plain.is_text(value) and _takes_others(about):
         return f"{name}: {show(value)} is text; {allows}, without quotes"
     if isinstance(value, int | float) and about.get("type") == "string" and "enum" not in about:

@@ -15,7 +15,8 @@ from subslide import catalogue, checksums
 from subslide.files import RecordError
 from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
-from subslide.results.listing import Companion, StudyRun, listed, verify
+from subslide.results import reading
+from subslide.results.listing import AGAIN, Companion, StudyRun, listed, verify
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -110,6 +111,8 @@ class Results:
         ------
         KeyError
             If the study has no such run.
+        RecordError
+            If its record is missing or damaged, or lacks the run.
         """
         for run in self.runs_of_study:
             if run.id == name:
@@ -138,17 +141,13 @@ class Results:
         ConfigError
             If the study's folder has no such table.
         RecordError
-            If the table is not as it was written.
+            If the table is not as it was written, or not that of this study.
         """
-        import pandas as pd
-
-        path = self._table_path(name)
-        if path.suffix == ".parquet":
-            return pd.read_parquet(path)
-        return pd.read_csv(path, keep_default_na=False, na_values=[""])
+        return reading.table(self._table_path(name), name, self.runs_of_study)
 
     def lines(self, name: str) -> list[dict[str, str]]:
-        """Return the rows of a table that is CSV as text by column; ConfigError without the table."""
+        """Return the rows of a table that is CSV as text by column; faults are those of `table`."""
+        self.table(name)
         with open(self._table_path(name), newline="", encoding="utf-8") as file:
             return list(csv.DictReader(file))
 
@@ -238,9 +237,16 @@ def trimmed(data: "xr.Dataset", name: str) -> "xr.Dataset":
     -------
     xarray.Dataset
         The same without the dimension `run`, as lazy as it was.
+
+    Raises
+    ------
+    RecordError
+        If the record lacks the run.
     """
-    place = int(np.flatnonzero(data["id"].values == name)[0])
-    one = data.isel(run=place)
+    places = np.flatnonzero(data["id"].values == name)
+    if not len(places):
+        raise RecordError(f"{data.encoding.get('source', 'a record')}: the record lacks the run {name}; {AGAIN}")
+    one = data.isel(run=int(places[0]))
     one = one.isel(step=slice(int(np.isfinite(one["time"].values).sum())))
     if "x" in one.dims:
         snapshots = int(np.isfinite(one["snapshot_time"].values).sum())
@@ -250,7 +256,7 @@ def trimmed(data: "xr.Dataset", name: str) -> "xr.Dataset":
 
 
 def _empty(name: str) -> "pd.DataFrame":
-    """Return a table without rows, by the columns that its module states as they are."""
+    """Return a table without rows, by the columns of its module."""
     import pandas as pd
 
-    return pd.DataFrame(columns=catalogue.columns(name))
+    return pd.DataFrame(columns=catalogue.layout(name).columns)

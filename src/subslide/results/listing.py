@@ -1,6 +1,7 @@
 """What a study's folder says of itself: the runs that points.json lists, and whether a file is as it was written."""
 
 import json
+from collections import Counter
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -71,6 +72,8 @@ def listed(folder: Path) -> tuple[tuple[StudyRun, ...], tuple[Companion, ...]]:
         )
         if not runs:
             raise ValueError("there are no points")
+        _once([run.id for run in runs])
+        _once([f"{one.role} of {one.of}" for one in others])
     except BROKEN as error:
         what = words.cut(" ".join(str(error).split()) or type(error).__name__)
         raise RecordError(f"{path} is damaged or not of this version ({what}); {AGAIN}") from None
@@ -103,6 +106,12 @@ def _fault(path: Path) -> str:
     except RecordError as error:
         return str(error)
     return ""
+
+
+def _once(names: list[str]) -> None:
+    """Raise a ValueError if a name is there twice."""
+    if len(set(names)) < len(names):
+        raise ValueError(f"{Counter(names).most_common(1)[0][0]} is there twice")
 
 
 def _row(row: dict, check: bool) -> dict[str, Any]:

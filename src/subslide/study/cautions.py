@@ -88,10 +88,9 @@ REGIONS = (
     Region(
         "film of water",
         _under_film,
-        f"below a_H = {FILM:g}, with tan(delta)/a_2 from {HELD[0]:g} to {HELD[1]:g}, runs may gain energy or end as"
-        " step_collapse (below 0.1 up to half of them, above it one in a few hundred, on fine grids): the film drains"
-        " over the edge of grains at rest, and where it runs dry its speed grows without bound",
-        f"a_H of {FILM:g} or more; or r: 0 with quantities: grains, which leaves the water out",
+        f"below a_H = {FILM:g}, with tan(delta)/a_2 from {HELD[0]:g} to {HELD[1]:g}, the film runs dry at the edge of"
+        " grains at rest: runs may gain energy or end as step_collapse",
+        f"a_H of {FILM:g} or more; or r: 0 with quantities: grains",
         {"a_H": 0.0215, "delta": 40, "cells": 100, "boundary": "wall"},
         {"a_H": 0.3},
         "stability, maps of a_H by r and by delta",
@@ -108,8 +107,8 @@ REGIONS = (
     Region(
         "little friction",
         _far,
-        f"with tan(delta)/a_2 below {LEAST_FRICTION:g} grains run further than the largest box reaches, and without"
-        " friction they never rest: the run ends as left_domain, or at the cap in time",
+        f"with tan(delta)/a_2 below {LEAST_FRICTION:g} grains run beyond the largest box, or never rest: the run ends"
+        " as left_domain, or at the cap in time",
         "a number for t_end, more friction or a lower column",
         {"delta": 0, "cells": 40},
         {"t_end": 0.2},
@@ -118,9 +117,9 @@ REGIONS = (
     Region(
         "floating grains",
         _floating,
-        f"above r = {FLOATING:g} waves between the layers swing for long, and solvers that resolve them gain energy"
-        " from them, the more the less friction there is; some runs end as step_collapse",
-        "scheme: hll or rusanov, or a t_end before the waves come back from the box's ends",
+        f"above r = {FLOATING:g} solvers that resolve waves between the layers gain energy from them; some runs end as"
+        " step_collapse",
+        "scheme: hll or rusanov, or a t_end before waves come back from the box's ends",
         {"r": 0.999, "a_2": 1, "delta": 5.71, "boundary": "wall", "cells": 100},
         {"scheme": "hll"},
         "stability, grains that nearly float",

@@ -69,15 +69,28 @@ def figures_of(chosen: Any, points: list[Point]) -> tuple[str, ...]:
     if chosen == "none":
         return ()
     if chosen == "auto":
-        return tuple(name for name in known if not _lacking(name, points))
+        return tuple(name for name in known if not lacking(name, points))
     for name in chosen:
-        if lack := _lacking(name, points):
+        if lack := lacking(name, points):
             raise ConfigError(f"figures: {name} needs runs with {lack}, which this study does not have")
     return tuple(name for name in known if name in chosen)
 
 
-def _lacking(name: str, points: list[Point]) -> str:
-    """Return the first 'key: value' that a figure needs and no point has, or ''."""
+def lacking(name: str, points: list[Point]) -> str:
+    """Return the first 'key: value' that a figure needs and no point has, or ''.
+
+    Parameters
+    ----------
+    name
+        Name of the figure.
+    points
+        Runs of the study.
+
+    Returns
+    -------
+    str
+        What is lacking, as a configuration would state it.
+    """
     for key, needed in catalogue.figure(name).needs.items():
         present = {getattr(point, key) for point in points}
         for value in needed:

@@ -204,11 +204,11 @@ class _Reader:
                 if documents > 1:
                     self._refuse("a second document begins; allowed: one")
                 self._take(event)
-        except yaml.MarkedYAMLError as error:
-            self.line = error.problem_mark.line + 1 if error.problem_mark else self.line
-            self._refuse(f"not valid YAML: {error.problem}")
         except yaml.YAMLError as error:
-            self._refuse(f"not valid YAML: {error}")
+            mark = getattr(error, "problem_mark", None)
+            self.line = mark.line + 1 if mark else self.line
+            what = getattr(error, "problem", error)
+            self._refuse(f"not valid YAML: {what}; allowed: lines of 'key: value'")
         return self.result
 
     def _take(self, event: "yaml.Event") -> None:
@@ -259,7 +259,8 @@ class _Reader:
     def _scalar(self, text: str, style: str | None) -> Any:
         """Return the value of a text, which stands for itself if it is in quotes."""
         if plain.control(text):
-            self._refuse(f"{words.show(text)} has a control character; allowed: text in one line")
+            allowed = "lines of 'key: value'" if self.lines and not self.levels else "text in one line"
+            self._refuse(f"{words.show(text)} has several lines or a control character; allowed: {allowed}")
         if style not in (None, ""):
             return text
         try:

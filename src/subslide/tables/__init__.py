@@ -20,6 +20,9 @@ table(results) -> iterable of dict, or pandas.DataFrame
 
 and, only where it needs them,
 
+WORDS : tuple of str
+    Columns that hold words, or true and false; all others but keys of words hold numbers, and a file where they do not
+    is refused. Without it, nothing is asked of them.
 FLOAT_FORMAT : str
     How numbers are written, such as ``%.10g``; without it, all digits.
 CATEGORY : str

@@ -9,10 +9,32 @@ from typing import TYPE_CHECKING
 
 from subslide import checksums, source_hash, tables
 from subslide.files import replacing, write_text
-from subslide.study import outputs
+from subslide.study import outputs, whole_study
+from subslide.study.config import Study
 
 if TYPE_CHECKING:
     from subslide.results import Results
+
+
+def lacking(name: str, results: "Results") -> str:
+    """Return '' if a finished study is to have a table, else words for what it lacks.
+
+    Parameters
+    ----------
+    name
+        Name of the table.
+    results
+        The study. It does not state the figures that were asked for: those count that its runs allow.
+
+    Returns
+    -------
+    str
+        What the table's `needs` returns.
+    """
+    runs = results.runs_of_study
+    figures = whole_study.figures_of("auto", [run.point for run in runs])
+    named = tuple((run.numerics, run.point) for run in runs)
+    return tables.load(name).needs(Study(results.folder.name, figures, named, bool(results.companions)))
 
 
 def write(name: str, results: "Results") -> list[Path]:

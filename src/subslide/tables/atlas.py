@@ -74,6 +74,7 @@ COLUMNS = {
     ),
     "reason": ("", "why entries are empty, or why the run is not judged"),
 }
+WORDS = ("id", "status", "status_detail", "reference", "reason")
 NO_GROWTH = {"growth_rate": math.nan, "growth_rate_theory": math.nan, "why_growth": ""}
 MEASURED = (
     *("energy", "water_volume", "sediment_volume", "nonhyperbolic_cells"),

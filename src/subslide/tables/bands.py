@@ -33,6 +33,7 @@ COLUMNS = {
     "band": ("m", "half-width of the band of discretisation error about `value`; wide where not converged"),
     "convergence": ("", f"`{convergence.CONVERGING}` or `{convergence.NOT_CONVERGED}`"),
 }
+WORDS = ("id", "quantity", "convergence")
 WAVES = ("max_abs_eta", "max_abs_eta_outside")
 ONCE = (*(f"L_f_{label}" for label in FRONT_LABELS), *(f"{name}_peak" for name in WAVES))
 """Quantities of a run as a whole; the others are taken at the times of its snapshots."""

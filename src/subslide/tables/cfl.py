@@ -102,6 +102,7 @@ COLUMNS = {
     ),
     "distance": ("", f"distance from the resolved run over that at the Courant number {SAFE}"),
 }
+WORDS = ("stable", "why_not", "limit", "status")
 
 
 class Judge(NamedTuple):

@@ -37,6 +37,7 @@ COLUMNS = {
     "paper_reaches": ("", "whether that run is accurate enough; if not, `factor` is a lower bound"),
     "factor": ("", "`paper_seconds` over `seconds`"),
 }
+WORDS = ("quantity", "numerics", "id", "paper_reaches")
 
 
 def about() -> str:

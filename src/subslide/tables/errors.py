@@ -66,6 +66,7 @@ COLUMNS = {
     "expected_order": ("", "least order that counts as reached; empty where none is expected"),
     "verdict": ("", "see above"),
 }
+WORDS = ("id", "options", "quantity", "verdict")
 QUANTITIES = {
     "h2": "depth of the grains: sum of |error| over the sum of |exact|, each cell (on a radius each ring) by its size;"
     " for waves of small amplitude the mean of |error| over the exact amplitude",

@@ -137,6 +137,10 @@ COLUMNS = {
         for part in bands.SUMMARY
     },
 }
+WORDS = (
+    *("id", "numerics", "resolved_model", "status", "status_detail"),
+    *(f"{name}_convergence" for name in bands.ONCE),
+)
 MEASURED = (
     *("model", "dx", "status", "status_detail", "steps", "time_at_rest", "box_half_width", "L_f", "time"),
     *("wave_free_until", "energy", "max_abs_eta", "max_abs_eta_outside", "sediment_volume", "water_volume"),

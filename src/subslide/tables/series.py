@@ -23,6 +23,7 @@ COLUMNS = {
     "quantity": ("", "what was sampled, see above"),
     "value": ("", "its value, in the unit of the quantity"),
 }
+WORDS = ("id", "quantity")
 QUANTITIES = {
     **{f"x_front_{t}": ("m", f"x_front at the {t[:-2]} % front") for t in FRONT_LABELS},
     **{

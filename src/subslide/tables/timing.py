@@ -19,6 +19,7 @@ COLUMNS = {
     "cells_in_box": ("", "cells of the box at the end"),
     "cell_updates_per_second": ("s-1", "cells times steps over wall time"),
 }
+WORDS = ("id",)
 MEASURED = ("steps", "wall_seconds", "model", "box_half_width", "dx")
 """Variables of records that the table follows from."""
 

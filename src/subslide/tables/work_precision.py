@@ -53,6 +53,7 @@ COLUMNS = {
         "`seconds` over those of the cheapest run of the default numerics with no larger `sure_error`; empty if none",
     ),
 }
+WORDS = ("id", "quantity", "method", "status", "above_uncertainty", "on_front")
 QUANTITIES = {
     "L_f": "length of the deposit (1 % front) at the end of the run",
     "x_front": "front (1 %) over time, to the end of the run",
