@@ -160,6 +160,7 @@ def test_a_study_in_a_folder_with_a_backslash_gives_tables_and_names_it_where_it
         "runs.html",
         "caption.html",
         "pipe.html",
+        "sealed.html",
         "page.txt",
         "t",
         "absent/page.html",
@@ -172,6 +173,7 @@ def test_a_report_replaces_no_file_of_the_study(study, refused, output):
     Path("captions/runs.rst").write_text("Runs.")
     os.symlink("captions/runs.rst", "caption.html")
     os.mkfifo("pipe.html")
+    os.mkfifo("sealed.html.sha256")
     assert "--output: " in refused("report", study, "--captions", "captions", "-o", output)
 
 
@@ -229,9 +231,13 @@ def test_pipes_in_place_of_what_a_study_makes_stay(study, refused):
         path.unlink()
         Path("aside").rename(path)
     Path("out").mkdir()
-    os.mkfifo("out/fig06_fronts.svg")
     words = ("figure", "fig06_fronts", "--results", study, "-o", "out")
-    assert "fig06_fronts.svg: this is no regular file" in refused(*words, status=1)
+    for name in ("fig06_fronts.png.sha256", "fig06_fronts.svg"):
+        os.mkfifo(f"out/{name}")
+        assert f"{name}: this is no regular file" in refused(*words, status=1)
+        Path("aside").unlink(missing_ok=True)
+        Path("out", name).rename("aside")
+    Path("aside").rename("out/fig06_fronts.svg")
     with pytest.raises(RecordError, match="no regular file"):
         write_text("out/fig06_fronts.svg", "text")
 

@@ -82,8 +82,8 @@ def report(results: str, captions: str | None, output: str) -> None:
         raise ConfigError(
             f"--captions: {words.show(captions)} is no folder; allowed: a folder of texts, NAME.rst"
         )
-    folder = Path(results)
-    inputs = outputs.of_study(folder, but=[folder / "report.html"])
-    outputs.check(output, [*inputs, *Path(captions or results).glob("*.rst")], end=".html")
+    page_of_study = Path(results, "report.html")
+    inputs = outputs.of_study(Path(results), but=[page_of_study, checksums.beside(page_of_study)])
+    outputs.check_sealed(output, [*inputs, *Path(captions or results).glob("*.rst")], ".html")
     write_text(output, page.text(Results(results), Path(captions) if captions else None))
     checksums.seal(output, sources=source_hash("page", "report"))

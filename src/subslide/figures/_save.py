@@ -61,7 +61,7 @@ def save(name: str, results: Path, output: Path) -> list[Path]:
     from subslide.study import outputs
 
     paths = [output / f"{name}.{suffix}" for suffix in ("png", "svg")]
-    outputs.check_made(paths, results)
+    outputs.check_made([*paths, *map(checksums.beside, paths)], results)
     drawn = importlib.import_module(f"subslide.figures.{name}").draw(study)
     output.mkdir(parents=True, exist_ok=True)
     for path, metadata in zip(paths, ({"Software": None}, {"Date": None}), strict=True):
