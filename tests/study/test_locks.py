@@ -96,6 +96,14 @@ def test_a_job_holds_the_folder_of_records(tmp_path):
     os.close(handle)
 
 
+def test_a_folder_with_a_backslash_is_refused_before_anything_is_made(tmp_path, monkeypatch, capsys):
+    (tmp_path / "a\\b").mkdir()
+    monkeypatch.chdir(tmp_path / "a\\b")
+    (tmp_path / "a\\b/one.yaml").write_text("study: one\nmodel: radial\ncells: 20\n")
+    assert main(["unlock", "one.yaml"]) == 2
+    assert "a backslash in the path of a study" in capsys.readouterr().err
+
+
 def test_what_snakemake_cannot_read_is_forgotten(cache):
     for name, content in (
         ("a", b'{"rule": "batch"}'),

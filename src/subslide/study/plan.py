@@ -8,6 +8,7 @@ asked for.
 """
 
 import json
+import os
 import re
 from pathlib import Path
 from typing import NamedTuple
@@ -144,11 +145,15 @@ def check_folders(folder: Path, home: Path) -> None:
     Raises
     ------
     ConfigError
-        If something does: one line that says what to remove.
+        If something does, one line that says what to move; or if its path has a backslash.
     """
     for path in (folder.parent, *(folder / name for name in FOLDERS), *reversed(home.parents[:2]), home):
         if (path.exists() or path.is_symlink()) and not path.is_dir():
             raise ConfigError(f"{path} is a file where a folder of the study belongs: move it away")
+    if "\\" in os.path.abspath(folder):  # the library of NetCDF takes it for a slash
+        raise ConfigError(
+            f"{os.path.abspath(folder)}: a backslash in the path of a study; allowed: any other character"
+        )
     if (home / "alive").is_dir():
         raise ConfigError(f"{home / 'alive'} is a folder where a file belongs: move it away")
 
