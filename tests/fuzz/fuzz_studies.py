@@ -37,7 +37,6 @@ TABLES_READ_BY = {
     "series": (
         ("claims",),
         ("figure", "fig06_fronts"),
-        ("figure", "fig07_front_aH1_aH10"),
         ("figure", "fig08_max_eta"),
     ),
     "bands": (("claims",), ("table", "runs"), ("figure", "fig06_fronts")),

@@ -93,9 +93,11 @@ def test_a_table_that_is_none_of_the_study_is_named_in_one_line(folder, name, ha
     path = folder / f"tables/{name}.csv"
     path.write_bytes(harm(path.read_text()).encode(errors="surrogateescape"))
     seal(path)
-    output = folder.parent / "out"
-    verbs = [["figure", "fig06_fronts", "--results", str(folder)], ["report", str(folder)]]
-    for verb in verbs:
+    figure = ["figure", "fig06_fronts", "--results", str(folder)]
+    for verb, output in (
+        (figure, folder.parent / "out"),
+        (["report", str(folder)], folder.parent / "r.html"),
+    ):
         assert main([*verb, "-o", str(output)]) == 1
         (line,) = capsys.readouterr().err.splitlines()
         assert f"tables/{name}.csv is not the table {name} of this study" in line
