@@ -2,18 +2,16 @@
 
 import csv
 import functools
-import json
 import math
 import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, overload
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import numpy as np
 
-from subslide import catalogue, checksums
+from subslide import catalogue
 from subslide.files import RecordError
-from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
 from subslide.results import reading
 from subslide.results.listing import AGAIN, Companion, StudyRun, listed, verify
@@ -24,7 +22,6 @@ if TYPE_CHECKING:
 
 MOST_BYTES = 250e6
 """Size of the records from which on a study is read in more than one go."""
-
 
 Solved = TypeVar("Solved", bound=StudyRun | Companion)
 
@@ -147,8 +144,9 @@ class Results:
 
     def lines(self, name: str) -> list[dict[str, str]]:
         """Return the rows of a table that is CSV as text by column; faults are those of `table`."""
-        self.table(name)
-        with open(self._table_path(name), newline="", encoding="utf-8") as file:
+        path = self._table_path(name)
+        reading.table(path, name, self.runs_of_study)
+        with open(path, newline="", encoding="utf-8") as file:
             return list(csv.DictReader(file))
 
     def _table_path(self, name: str) -> Path:

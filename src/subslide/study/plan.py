@@ -27,7 +27,6 @@ NAME = re.compile(r"\d{4,9}(p\d{1,4})?")
 FOLDERS = ("", "records", "batches", "tables", "figures", "logs", "benchmarks", "damaged")
 """Folders of a study, from its own."""
 
-
 WHOLE = ("", False)
 """State of a record that is as its batch asks."""
 
