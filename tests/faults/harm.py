@@ -142,19 +142,20 @@ def stop_group(victim: Victim, number: int) -> None:
 
 def kill_a_job(victim: Victim) -> None:
     """SIGKILL one job, as the system does that has no memory left."""
-    running = victim.make()
-    if number := victim.wait_for("batch", running):
-        with contextlib.suppress(ProcessLookupError):
-            os.kill(number, signal.SIGKILL)
-    running.communicate(timeout=120)
+    signal_a_job(victim, signal.SIGKILL)
 
 
 def stop_a_job(victim: Victim) -> None:
     """SIGTERM to one job: what it has solved is kept."""
+    signal_a_job(victim, signal.SIGTERM)
+
+
+def signal_a_job(victim: Victim, number: int) -> None:
+    """Send a signal to one job of `make study`, soon after the first one has started."""
     running = victim.make()
-    if number := victim.wait_for("batch", running):
+    if job := victim.wait_for("batch", running):
         with contextlib.suppress(ProcessLookupError):
-            os.kill(number, signal.SIGTERM)
+            os.kill(job, number)
     running.communicate(timeout=120)
 
 
