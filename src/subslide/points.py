@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from subslide import catalogue
-from subslide.keys import schema
+from subslide.keys import names, schema
 from subslide.keys.entries import ENTRIES
 
 PAPER_RADIUS = ENTRIES["radius"]["default"]
@@ -205,9 +205,12 @@ class Point(Values):
 def canonical(point: Point) -> str:
     """Return the text of a point in one number format and one order of keys; equal points give equal texts.
 
-    A file that its scene reads is known by its content, which is one of the options, and not by its path.
+    A file that its scene reads is known by its content, which is one of the options, and not by its path; a value that
+    has meant something else before, by another word.
     """
     values = to_dict(point)
+    for key, words in names.KNOWN_AS.items():
+        values[key] = words.get(values[key], values[key])
     for name in catalogue.options_that_read(point.scene):
         values["scene_options"].pop(name, None)
     return json.dumps(values, separators=(",", ":"), sort_keys=True)

@@ -12,7 +12,7 @@ FLAGS = {
     "TREATMENTS": {"real": 0, "hll": 1, "friction": 2, "stop": 3},
     "SPEEDS": {"exact": 0, "approximate": 1},
     "AS_PRINTED": {"none": 0, "friction": 1, "upwinding": 2},
-    "BOUNDARIES": {"open": 0, "wall": 1, "periodic": 2},
+    "BOUNDARIES": {"open": 0, "wall": 1, "periodic": 2, "paper": 3},
 }
 KEYS = {
     "scheme": names.SCHEMES,

@@ -17,13 +17,13 @@ OTHER = {"scene": "other", "scene_options": (("name", 1.0),), "t_end": 1.0, "sna
 """Values that are not the default, of keys whose entry does not tell another."""
 
 PINNED = (
-    (Point(), "p51850e7838c3"),
-    (Point(a_H=10, r=0.0, model="quarter", order=1, front_flux="hll"), "pda00b8352ba9"),
+    (Point(), "pd4d3bd1daa49"),
+    (Point(a_H=10, r=0.0, model="quarter", order=1, front_flux="hll"), "pfcbded22cff9"),
     (
         Point(
             scene="ellipse", scene_options=(("angle", 30.0), ("elongation", 2.0)), model="plane", fields=True
         ),
-        "pde12b49a703e",
+        "p499cfac018af",
     ),
     (
         Point(
@@ -35,7 +35,7 @@ PINNED = (
             friction="voellmy",
             xi=100,
         ),
-        "p035ec6ac027f",
+        "p10fbdf051702",
     ),
     (
         Point(treatment="stop", friction_in_viscosity=False, radius=1, g=1.62, cfl=0.45, boundary="wall"),

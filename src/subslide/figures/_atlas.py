@@ -27,6 +27,8 @@ FILLED = 0.5
 """Share of a row's or column's entries that a map must have to show it."""
 COMPLEX = 0.1
 """Extent over R of cells with complex wave speeds, in the resolved run, from which a map outlines their loss."""
+BOXES = {"open": "open sea", "paper": "the paper's box", "wall": "walls"}
+"""What a map calls the edge of its runs' box."""
 OUTCOMES = {
     "failed": {"marker": "x", "color": "#b40426", "markersize": 5, "markeredgewidth": 1.5},
     "left_domain": {"marker": ">", "color": "0.35", "markersize": 3.5, "markeredgewidth": 0},
@@ -202,7 +204,7 @@ def about(rows: pd.DataFrame, keys: tuple[str, ...]) -> str:
     """Return what the runs of a map share, in words: the values of some keys, the cells and the box."""
     row = rows.iloc[0]
     words = [_words.equation(key, row[key]) for key in keys]
-    box = {"open": "box that grows", "wall": "walls"}[row["boundary"]]
+    box = BOXES[row["boundary"]]
     dx = Point(cells=row["cells"]).scaled_dx
     return ", ".join([*words, f"{row['cells']} cells (d$x$ = {dx:.3g} $R$)", box])
 

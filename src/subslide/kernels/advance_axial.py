@@ -15,7 +15,7 @@ from subslide.kernels.axial import (
     water_cell_speeds,
 )
 from subslide.kernels.axial_faces import faces, water_faces
-from subslide.kernels.boundary import OPEN, PERIODIC
+from subslide.kernels.boundary import PERIODIC, lets_out
 from subslide.kernels.front import front_position
 from subslide.kernels.hyperbolicity import judged
 from subslide.kernels.jit import inlined, launch
@@ -42,8 +42,8 @@ def sample(s, c, mesh, watch, thresholds, low, high, wet, now, row):
 def rim_depth(h2, walls):
     """Return the largest depth of grains in the last two cells before an open end."""
     n = h2.shape[0]
-    left = 0.0 if walls[0] != OPEN else max(h2[GHOSTS], h2[GHOSTS + 1])
-    right = 0.0 if walls[1] != OPEN else max(h2[n - GHOSTS - 1], h2[n - GHOSTS - 2])
+    left = max(h2[GHOSTS], h2[GHOSTS + 1]) if lets_out(walls[0]) else 0.0
+    right = max(h2[n - GHOSTS - 1], h2[n - GHOSTS - 2]) if lets_out(walls[1]) else 0.0
     return max(left, right)
 
 

@@ -27,7 +27,7 @@ from subslide.kernels.active import (
     widen,
 )
 from subslide.kernels.arrays import BEFORE, GHOSTS, flux_row, row_of, side_row, side_row_turned
-from subslide.kernels.boundary import OPEN, PERIODIC, join_plane
+from subslide.kernels.boundary import PERIODIC, join_plane, lets_out
 from subslide.kernels.front import front_position
 from subslide.kernels.hyperbolicity import judged
 from subslide.kernels.jit import driver, inlined, launch
@@ -58,11 +58,11 @@ def rim_depth(h2, j, rows, walls):
     """Return the largest depth of grains of the padded row j in the last two cells before an open end."""
     n = h2.shape[0]
     depth = 0.0
-    if walls[0] == OPEN:
+    if lets_out(walls[0]):
         depth = max(depth, max(h2[GHOSTS], h2[GHOSTS + 1]))
-    if walls[1] == OPEN:
+    if lets_out(walls[1]):
         depth = max(depth, max(h2[n - GHOSTS - 1], h2[n - GHOSTS - 2]))
-    if (j < GHOSTS + 2 and walls[2] == OPEN) or (j >= rows - GHOSTS - 2 and walls[3] == OPEN):
+    if (j < GHOSTS + 2 and lets_out(walls[2])) or (j >= rows - GHOSTS - 2 and lets_out(walls[3])):
         depth = max(depth, largest(h2, 0, n))
     return depth
 

@@ -5,7 +5,13 @@ from subslide.kernels.jit import inlined
 from subslide.keys.names import BOUNDARIES, flags
 
 FLAGS = flags(BOUNDARIES)
-OPEN, WALL, PERIODIC = FLAGS["open"], FLAGS["wall"], FLAGS["periodic"]
+OPEN, WALL, PERIODIC, PAPER = (FLAGS[name] for name in ("open", "wall", "periodic", "paper"))
+
+
+@inlined
+def lets_out(end):
+    """Return whether grains may leave through an end."""
+    return end in (OPEN, PAPER)
 
 
 @inlined

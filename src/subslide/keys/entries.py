@@ -129,13 +129,20 @@ ENTRIES: dict[str, Entry] = {
     "max_disk": limit("disk, as estimated, that records and tables may take", 20, "GB", 1e-3, 1e6),
     "numerics": {
         "role": PRESET,
-        "description": "named set of model, scheme, order and cells; keys written out win over it",
+        "description": "named set of model, scheme, order, cells and boundary; keys written out win over it",
         "enum": ["default", "paper", "resolved"],
         "default": "default",
         "axis": True,
         "presets": {
             "default": {},
-            "paper": {"model": "quarter", "scheme": "ifcph", "front_flux": "hll", "order": 1, "cells": 200},
+            "paper": {
+                "model": "quarter",
+                "scheme": "ifcph",
+                "front_flux": "hll",
+                "order": 1,
+                "cells": 200,
+                "boundary": "paper",
+            },
             "resolved": {"model": "auto", "scheme": "ifcph", "order": 2, "cells": 3200},
         },
     },
@@ -176,12 +183,7 @@ ENTRIES: dict[str, Entry] = {
         names.LAWS,
     ),
     "xi": number(
-        PHYSICS,
-        "turbulence coefficient of voellmy friction",
-        500,
-        "m s-2",
-        minimum=1e-3,
-        maximum=1e9,
+        PHYSICS, "turbulence coefficient of voellmy friction", 500, "m s-2", minimum=1e-3, maximum=1e9
     ),
     "delta_2": number(
         PHYSICS,
@@ -266,8 +268,8 @@ ENTRIES: dict[str, Entry] = {
     ),
     "boundary": choice(
         SCENE,
-        "edge of the box: open (zero gradient), wall, or periodic (on a line or in the whole plane); only an open box"
-        " grows, so a front may end at a wall",
+        "edge of the box: open, paper (zero gradient at the end of the paper's box, as the paper's own runs may have"
+        " had), wall, or periodic (on a line or in the whole plane); a front may end at a wall, the others give way",
         "open",
         names.BOUNDARIES,
     ),

@@ -24,8 +24,14 @@ SPEEDS = {"exact": LEAN, "approximate": GENERAL}
 AS_PRINTED = {"none": LEAN, "friction": GENERAL, "upwinding": GENERAL}
 """Formulas of the paper that are taken literally."""
 
-BOUNDARIES = {"open": LEAN, "wall": LEAN, "periodic": LEAN}
+BOUNDARIES = {"open": LEAN, "wall": LEAN, "periodic": LEAN, "paper": LEAN}
 """Edges of the box."""
+
+LEAVING = ("open", "paper")
+"""Edges that let waves and grains out."""
+
+KNOWN_AS = {"boundary": {"open": "sea"}}
+"""Words that ids have for values which once meant something else, by key: the zero gradient is `paper` now."""
 
 MODELS = {"one-layer": LEAN, "radial": LEAN, "line": LEAN, "quarter": LEAN, "plane": LEAN}
 """Geometries that are solved, the cheapest first."""

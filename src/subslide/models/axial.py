@@ -17,6 +17,7 @@ from subslide.kernels.arrays import (
     Watch,
     allocate,
 )
+from subslide.kernels.boundary import WALL
 from subslide.models.limits import LOST_GRAINS
 from subslide.models.model import Model
 from subslide.scenes import Grid
@@ -79,7 +80,7 @@ class Axial(Model):
         self.fluxes = allocate(Fluxes, (n + 1,), real)
         self.terms = allocate(CellTerms, (padded,), real)
         self.terms.keep1[:] = self.terms.keep2[:] = 1
-        self.mesh = mesh_of(grid, radial, walls[1], real)
+        self.mesh = mesh_of(grid, radial, walls[1] == WALL, real)
         self.walls = (int(walls[0]), int(walls[1]))
         self.watch = self._watch(grid.dx, watched, state[0][-1], state[2][-1])
 
@@ -131,7 +132,7 @@ class Axial(Model):
         }
 
 
-def mesh_of(grid: Grid, radial: bool, right_wall: int, real: type[float]) -> Mesh:
+def mesh_of(grid: Grid, radial: bool, right_wall: bool, real: type[float]) -> Mesh:
     """Return the `Mesh` of a line or a radius.
 
     Parameters

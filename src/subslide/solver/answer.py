@@ -8,6 +8,7 @@ import numpy as np
 from subslide.kernels import clock as k
 from subslide.kernels import measures, samples
 from subslide.kernels.measures import Scales
+from subslide.keys import names
 from subslide.models.limits import inner
 from subslide.models.model import Model
 from subslide.naming import FINISHED, FRONT_THRESHOLDS, STATUSES
@@ -102,7 +103,7 @@ def room_for_waves(point: Point, model: Model) -> float:
     float
         Distance (m) along an axis; NaN without an open edge or without water.
     """
-    if point.boundary != "open" or model.settings.layers == 1:
+    if point.boundary not in names.LEAVING or model.settings.layers == 1:
         return math.nan
     values = inner(model.cells, model.variables).values()
     moved = np.any([value != value.flat[-1] for value in values], axis=0)

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 from subslide import scenes
+from subslide.keys import names
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
 from subslide.study import choice
@@ -199,7 +200,7 @@ def _brake(point: Point) -> float:
 
 def _reach(point: Point, end: float) -> float:
     """Return how far from the axis, over R, grains may go in a box that grows; 0 if it does not grow."""
-    if point.boundary != "open":
+    if point.boundary not in names.LEAVING:
         return 0.0
     if point.scene == "cylinder":
         start = 1.0

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from subslide import exact
-from subslide.keys import schema, words
+from subslide.keys import names, schema, words
 from subslide.naming import FINISHED
 from subslide.points import RUN_KEYS, Point, options_text
 from subslide.study.config import Study
@@ -195,7 +195,7 @@ def budget(point: Point, record: dict, outcome: "pd.Series") -> dict:
     plane = record["model"] in ("quarter", "plane")
     drifts = outcome[["sediment_volume_error", "water_volume_error"]].astype(float)
     rise, why = math.nan, "no energy_rise: energy passes the open ends"
-    if point.boundary != "open":
+    if point.boundary not in names.LEAVING:
         series = (record[name] for name in ("energy", "water_volume", "sediment_volume"))
         rise = energy.rise(point, record["model"], float(record["box_half_width"]), *series)
         why = "" if math.isfinite(rise) else "no energy_rise: the start has no energy to release"

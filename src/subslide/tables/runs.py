@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from subslide import naming
-from subslide.keys import schema, words
+from subslide.keys import names, schema, words
 from subslide.naming import FRONT_LABELS
 from subslide.points import PAPER_BOX, RUN_KEYS, options_text
 from subslide.study.config import Study
@@ -167,7 +167,7 @@ def samples_inside(run: "StudyRun", record: dict) -> int:
 
     A step carries a change `order` cells at most. Unless the box is open nothing ever leaves, and every sample counts.
     """
-    if run.point.boundary != "open":
+    if run.point.boundary not in names.LEAVING:
         return len(record["time"])
     radius = run.point.radius
     cells = (min(PAPER_BOX * radius, float(record["box_half_width"])) - radius) / float(record["dx"])
