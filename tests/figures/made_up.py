@@ -22,7 +22,7 @@ DEFAULTS = {
     "cells": 200,
     "dtype": "float64",
     "cfl": 0.9,
-    "boundary": "open",
+    "boundary": "paper",
     "t_end": "rest",
     "resolved_model": "quarter",
     "status": "ok",
@@ -30,7 +30,14 @@ DEFAULTS = {
 }
 
 
-RESOLVED = {"numerics": "resolved", "model": "auto", "order": 2, "cells": 800, "resolved_model": "radial"}
+RESOLVED = {
+    "numerics": "resolved",
+    "model": "auto",
+    "order": 2,
+    "cells": 800,
+    "resolved_model": "radial",
+    "boundary": "open",
+}
 """What differs in runs with resolved numerics."""
 BANDED = ("L_f_1pc", "x_front_1pc", "max_abs_eta", "max_abs_eta_outside")
 
@@ -96,8 +103,9 @@ def made_up_run(row):
     fronts = front * (1 - 4 * (thresholds[:, None] - 0.01))
     lengths = np.full(3, np.nan) if failed else fronts[:, -1]
     row = {**row, "dx": dx, "time_at_rest": np.nan if failed else rest}
-    wet = row["boundary"] == "open" and row["resolved_model"] != "one-layer"
-    row["wave_free_until"] = (row["cells"] / 2 * dx - radius) / speed if wet else np.nan
+    free = {"paper": (row["cells"] / 2 * dx - radius) / speed, "open": 2 * time[-1]}
+    wet = row["resolved_model"] != "one-layer"
+    row["wave_free_until"] = free.get(row["boundary"], np.nan) if wet else np.nan
     for name, value in zip(("L_f_1pc", "L_f_3pc", "L_f_5pc"), lengths, strict=True):
         row |= {name: value, f"{name}_over_R": value / radius}
     return xr.Dataset(

@@ -113,6 +113,12 @@ def test_depth_at_the_laboratory_runout_is_measured(paper):
     assert f"{depth:.1f} % ($a_H$ = 2)" in words(draw("fig04_profiles_r0", paper))
 
 
+def test_depths_at_the_laboratory_runout_are_told_for_each_kind_of_numerics(both):
+    text = words(draw("fig04_profiles_r0", both))
+    assert "Paper's numerics: Depth there" in text
+    assert "Resolved: Depth there" in text
+
+
 def test_slice_keeps_one_value_of_what_does_not_vary():
     runs = grid((1, 2), (0, 0.4)) + grid((1, 2), (0, 0.4), cells=100) + grid((1,), (0,), delta=20.0)
     chosen = _slices.cut(MadeUpResults(runs))
@@ -211,7 +217,10 @@ def test_panels_that_the_edge_of_the_box_has_a_part_in_are_grey_and_said_so():
     shades = [ax.get_facecolor()[0] for ax in seen(figure)]
     assert shades == sorted(shades, reverse=True)  # early panels white, late ones grey
     assert shades[0] == 1 > shades[-1]
-    assert "Grey panels: waves from the grains have been at the open edge" in words(figure)
+    assert "Grey panels: waves have been at the edge of the paper's box" in words(figure)
+    sea = draw("fig09_surface", MadeUpResults(grid((1,), (0.2, 0.4), boundary="open")))
+    assert {ax.get_facecolor()[0] for ax in seen(sea)} == {1}
+    assert "Grey" not in words(sea)
     walled = draw("fig09_surface", MadeUpResults(grid((1,), (0.2, 0.4), boundary="wall")))
     assert {ax.get_facecolor()[0] for ax in seen(walled)} == {1}
     assert "Grey" not in words(walled)
@@ -238,7 +247,18 @@ def test_a_study_without_the_run_gets_an_empty_figure():
 
 @pytest.mark.parametrize("name", ["fig06_fronts", "fig07_front_aH1_aH10", "fig08_max_eta"])
 def test_both_numerics_are_drawn_and_told_apart(name, both):
-    figure = draw(name, both)
+    legend = told_apart(draw(name, both))
+    assert "value whose three grids give no order" in legend
+
+
+@pytest.mark.parametrize("name", ["fig04_profiles_r0", "fig05_h2_by_r", "fig09_surface"])
+def test_profiles_of_both_numerics_are_drawn_and_told_apart(name, both):
+    legend = told_apart(draw(name, both))
+    assert "value whose three grids give no order" not in legend
+
+
+def told_apart(figure):
+    """Return the texts of the legend of a figure, whose first panel has the curves of two kinds of numerics."""
     curves = [line for line in seen(figure)[0].get_lines() if len(line.get_xdata()) > 10]
     styles = {line.get_linestyle() for line in curves}
     widths = {line.get_linewidth() for line in curves}
@@ -246,8 +266,14 @@ def test_both_numerics_are_drawn_and_told_apart(name, both):
     legend = [text.get_text() for box in figure.legends for text in box.get_texts()]
     assert any("first-order IFCPH, cells of 3 mm" in text for text in legend)
     assert any("second-order IFCPH, cells of 0.75 mm" in text for text in legend)
-    assert "value whose three grids give no order" in legend
     assert "Also in this study" not in words(figure)
+    return legend
+
+
+def test_views_of_both_numerics_stand_side_by_side(both):
+    titles = [ax.get_title() for ax in seen(draw("fig10_view3d", both))]
+    assert sum("Paper's numerics" in title for title in titles) == 4
+    assert sum("Resolved" in title for title in titles) == 4
 
 
 def test_bands_are_bars_and_values_without_them_are_open(both):
@@ -270,13 +296,6 @@ def test_notes_say_what_the_tables_say(both):
     dry = lengths["paper"].xs(0.0, level="r")
     assert f"by {100 * np.ptp(dry) / dry.max():.2g} % with the paper's numerics" in text
     assert "paper's numerics 75 of 75, resolved 0 of 75 fronts and lengths" in text
-
-
-@pytest.mark.parametrize("name", ["fig04_profiles_r0", "fig09_surface"])
-def test_other_figures_draw_the_papers_numerics_and_name_the_rest(name, both):
-    text = words(draw(name, both))
-    assert "first-order IFCPH, cells of 3 mm" in text
-    assert "not shown here: numerics = resolved." in text
 
 
 @pytest.mark.parametrize("name", ["fig06_fronts", "fig07_front_aH1_aH10", "fig08_max_eta"])

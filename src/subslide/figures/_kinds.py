@@ -45,6 +45,10 @@ class Kind(NamedTuple):
         style = LINES[self.name] if self.name else {"linestyle": look["linestyle"], "linewidth": 1.3}
         return {"color": look["color"], **style}
 
+    def called(self, text: str) -> str:
+        """Return a text with the name of the kind before it, if the figure has several."""
+        return f"{TITLES[self.name].capitalize()}: {text}" if self.name else text
+
     def banded_values(self, run: str, quantity: str) -> pd.DataFrame:
         """Return the values of a run that have a row in the table of bands.
 
@@ -132,8 +136,8 @@ def symbols(
     ax.plot(x[~known], values[~known], **symbol, markerfacecolor="white", markeredgewidth=0.7, zorder=3.2)
 
 
-def entries(kinds: list[Kind]) -> list[_style.Entry]:
-    """Return the entries of a legend, (handle, label): a line for each kind, and the symbols of bands."""
+def entries(kinds: list[Kind], symbols: bool = True) -> list[_style.Entry]:
+    """Return the entries of a legend, (handle, label): a line for each kind, and with `symbols` those of bands."""
     lines = [
         (
             Line2D([], [], color="0.25", **LINES[kind.name]),
@@ -142,7 +146,7 @@ def entries(kinds: list[Kind]) -> list[_style.Entry]:
         for kind in kinds
         if kind.name
     ]
-    if any(kind.banded for kind in kinds):
+    if symbols and any(kind.banded for kind in kinds):
         plain = {"color": "0.25", "marker": "o", "linestyle": "", "markersize": 4, "markeredgewidth": 0.8}
         bar = Line2D([], [], **{**plain, "marker": "|", "markersize": 10})
         lines += [((bar, Line2D([], [], **plain)), "value with its band of grid error")]

@@ -31,8 +31,8 @@ PREFERRED = {
 ROLES = (SCENE, OUTPUT, PHYSICS, PRESET, METHOD)
 """Roles of keys in the order they are settled: what is solved before how."""
 
-LAST = ("fields",)
-"""Keys settled after all others: whether fields are kept must not decide between numerics."""
+LAST = ("boundary", "fields")
+"""Keys settled after all others: the edge of the sea, or whether fields are kept, must not decide between numerics."""
 
 PAPER = {"a_H": (1, 2, 10), "r": (0, 0.2, 0.4, 0.6, 0.8)}
 """Values that a figure shows before others, where a study has more than it can show."""

@@ -15,6 +15,13 @@ if TYPE_CHECKING:
 REFLECTED = "0.94"
 """Shade of what the edge of the box may have a part in."""
 
+EDGES = {
+    "paper": "waves have been at the edge of the paper's box (zero gradient); what it sends back has a part in the "
+    "runs that end there",
+    "open": "waves have been at the edge of the box, which lets them leave but for a part in a hundred",
+}
+"""What is marked, in words, for each kind of edge that may have a part in the surface."""
+
 OUTSIDE = "max_abs_eta_outside"
 
 
@@ -33,14 +40,28 @@ def buoyant(runs: pd.DataFrame) -> tuple[pd.DataFrame, list[str]]:
     return runs, []
 
 
-def reflected(where: str, runs: pd.DataFrame) -> list[str]:
-    """Return the note on what is marked, in words, as waves are at the open edge of the box of any of the runs."""
-    text = "waves from the grains have been at the open edge of the box; what comes back from it has a part"
-    return [f"{where}: {text}."] if runs["wave_free_until"].notna().any() else []
+def reflected(where: str, runs: pd.DataFrame, until: float) -> list[str]:
+    """Return the notes on what is marked, as waves are at the edge of the box of runs: one for each kind of edge.
+
+    Parameters
+    ----------
+    where
+        What is marked.
+    runs
+        Rows of the table of runs.
+    until
+        Last time (s) that the figure shows.
+    """
+    late = runs[runs["wave_free_until"] < until]
+    return [f"{where}: {EDGES[edge]}." for edge in EDGES if (late["boundary"] == edge).any()]
 
 
 def convergence(
-    results: "Results", kinds: list[_kinds.Kind], times: Iterable[float], unit: _words.Unit
+    results: "Results",
+    kinds: list[_kinds.Kind],
+    times: Iterable[float],
+    unit: _words.Unit,
+    bars: bool = True,
 ) -> list[str]:
     """Return the notes on how far waves are from converged, in numbers of these runs.
 
@@ -54,8 +75,10 @@ def convergence(
         Times (s) at which to compare them.
     unit
         Unit of times in the notes.
+    bars
+        Whether the figure draws bands.
     """
-    notes = _kinds.note(kinds, ("max_abs_eta", OUTSIDE), "values")
+    notes = _kinds.note(kinds, ("max_abs_eta", OUTSIDE), "values") if bars else []
     ratios = {time: _kinds.ratios(kinds, partial(_heights, results, time=time)) for time in times}
     words = [f"{_kinds.percent(*r)} at {_words.moment(time, unit)}" for time, r in ratios.items() if r]
     if words:
@@ -68,29 +91,6 @@ def convergence(
             "Not converged: at first order waves are too low, by an amount that needs a finer answer to tell."
         )
     return notes
-
-
-def beside(results: "Results", chosen: _slices.Slice, times: Iterable[float], unit: _words.Unit) -> list[str]:
-    """Return the notes on the convergence of waves in a figure that draws one kind of numerics alone.
-
-    With the paper's numerics and a resolved answer in the study, they are compared.
-
-    Parameters
-    ----------
-    results
-        The study.
-    chosen
-        The slice that the figure draws.
-    times
-        Times (s) at which to compare.
-    unit
-        Unit of times in the notes.
-    """
-    keep = {"a_H": chosen.runs["a_H"].unique(), "r": chosen.runs["r"].unique()}
-    kinds = _kinds.of(results, **keep) if "paper" in set(chosen.runs["numerics"]) else []
-    if len(kinds) < 2:
-        kinds = [_kinds.Kind("", chosen, results.bands[:0])]
-    return [one for one in convergence(results, kinds, times, unit) if not one.startswith("Bars")]
 
 
 def _heights(results: "Results", kind: _kinds.Kind, time: float) -> pd.Series:

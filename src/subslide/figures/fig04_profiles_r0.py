@@ -3,11 +3,12 @@
 from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from subslide import naming
-from subslide.figures import _profiles, _slices, _style, _words
+from subslide.figures import _kinds, _profiles, _slices, _style, _words
 from subslide.laboratory import lube as laboratory
 
 if TYPE_CHECKING:
@@ -36,42 +37,62 @@ def draw(results: "Results") -> Figure:
     Figure
         Two panels.
     """
-    chosen = _slices.cut(results, by=("a_H",), most={"a_H": 4}, r=0)
-    runs = chosen.runs
+    kinds = _kinds.of(results, by=("a_H",), most={"a_H": 4}, r=0)
+    runs = pd.concat([kind.runs for kind in kinds])
     radius, height = _slices.sizes(runs)
     runout = laboratory.runout(runs.iloc[0]["a_2"])
-    records = {row["a_H"]: results.record(row["id"]) for _, row in runs.iterrows()}
-    shapes = {row["a_H"]: _profiles.of_run(results, row["id"], "h2") for _, row in runs.iterrows()}
+    shapes = {row["id"]: _profiles.of_run(results, row["id"], "h2") for _, row in runs.iterrows()}
 
     figure, (left, right) = _style.panels(2, 2, 2.9)
-    main = _slices.nearest(list(shapes), 1)
-    _evolution(left, shapes[main], radius, height, runout)
+    main = _slices.nearest(list(kinds[-1].runs["a_H"]), 1)
+    _evolution(left, kinds, shapes, main, (radius, height, runout))
     left.set_title(_words.panel(0, f"$h_2$ along $x$, {_words.equation('a_H', main)}"))
-    depths = _foot(right, shapes, radius, height, runout)
+    depths = _foot(right, kinds, shapes, (radius, height, runout))
     right.set_title(_words.panel(1, "foot of the deposit at the end of the run"))
-    fronts = {
-        a_H: float(record["L_f"].sel(front_threshold=_words.THRESHOLD, method="nearest")) / radius
-        for a_H, record in records.items()
-    }
-    farthest = np.nanmax([runout, *fronts.values()])
+    farthest = np.nanmax([runout, *runs[f"L_f_{_words.THRESHOLD_LABEL}_over_R"]])
     right.set_xlim(0.75 * runout, 1.1 * farthest)
-    notes = [*_notes(depths, fronts, runout), *chosen.notes, *_words.trouble(runs, by=("a_H",))]
+    notes = [*_notes(kinds, depths, runout), *kinds[0].chosen.notes, *_words.trouble(runs, by=("a_H",))]
     title = "Profiles of the grains at $r$ = 0, beside the laboratory runout law"
-    return _style.finish(figure, title, chosen.about, notes)
+    return _style.finish(figure, title, _kinds.about(kinds), notes, more=_kinds.entries(kinds, symbols=False))
 
 
 def _evolution(
-    ax: Axes, profiles: list[_profiles.Profile], radius: float, height: float, runout: float
+    ax: Axes,
+    kinds: list[_kinds.Kind],
+    shapes: dict[str, list[_profiles.Profile]],
+    a_H: float,
+    sizes: tuple[float, float, float],
 ) -> None:
-    """Draw the profiles of a run at all times, those that coincide as one line."""
+    """Draw the profiles of a run of each kind at all times, those of the last kind that coincide as one line.
+
+    Parameters
+    ----------
+    ax
+        Panel to draw in.
+    kinds, shapes
+        Kinds of numerics, and profiles by id of the run.
+    a_H
+        Depth of water of the runs.
+    sizes
+        R and H2 (m), and the laboratory's runout over R.
+    """
+    radius, height, runout = sizes
     x_unit, unit = _words.length_unit(3 * radius), _words.length_unit(height)
-    groups = _profiles.together(profiles, 2e-3 * height)
-    for look, group in zip(_style.looks_of(range(len(groups)), light=0.75).values(), groups, strict=False):
-        x, depth = group[0].x * x_unit.factor, group[0].values * unit.factor
-        ax.plot(x, depth, **_style.line(look), label=_profiles.name_of(group))
+    ids = {kind.name: kind.runs["id"][kind.runs["a_H"] == a_H] for kind in kinds}
+    drawn = {name: shapes[run] for name, runs in ids.items() for run in runs}
+    groups = _profiles.together(drawn[kinds[-1].name], 2e-3 * height)
+    looks = _style.looks_of(range(len(groups)), light=0.75)
+    for kind in kinds:
+        for profile in drawn.get(kind.name, []):
+            n = max(k for k, group in enumerate(groups) if k == 0 or group[0].time <= profile.time)
+            first = kind is kinds[-1] and profile is groups[n][0]
+            label = _profiles.name_of(groups[n]) if first else None
+            if first or kind is not kinds[-1]:
+                x, depth = profile.x * x_unit.factor, profile.values * unit.factor
+                ax.plot(x, depth, **kind.line(looks[n]), label=label)
     ax.axvline(runout * radius * x_unit.factor, ymax=0.72, **LAW)
-    far = max(_profiles.reach(profiles, 1e-3 * height), runout * radius)
-    begin = _profiles.start([profiles], far)
+    far = max(*(_profiles.reach(one, 1e-3 * height) for one in drawn.values()), runout * radius)
+    begin = _profiles.start(drawn.values(), far)
     ax.set(
         xlim=(1.08 * begin * x_unit.factor, 1.08 * far * x_unit.factor), ylim=(0, 1.45 * height * unit.factor)
     )
@@ -90,24 +111,26 @@ def _evolution(
 
 def _foot(
     ax: Axes,
-    shapes: dict[float, list[_profiles.Profile]],
-    radius: float,
-    height: float,
-    runout: float,
-) -> dict[float, float]:
-    """Draw the last profile of each a_H, and return its depth (% of H2) at the law's runout by a_H."""
-    depths = {}
-    for (a_H, look), profiles in zip(
-        _style.looks_of(shapes, palette="plasma", light=0.7).items(), shapes.values(), strict=True
-    ):
-        end = _profiles.at(profiles, None)
-        if end is None:
-            continue
-        depths[a_H] = 100 * np.interp(runout * radius, end.x, end.values) / height
-        ax.plot(
-            end.x / radius, 100 * end.values / height, **_style.line(look), label=_words.equation("a_H", a_H)
-        )
-        ax.plot(runout, depths[a_H], look["marker"], color=look["color"], markeredgewidth=0, markersize=5)
+    kinds: list[_kinds.Kind],
+    shapes: dict[str, list[_profiles.Profile]],
+    sizes: tuple[float, float, float],
+) -> dict[str, dict[float, float]]:
+    """Draw the last profile of each run, and return its depth (% of H2) at the law's runout by kind and a_H."""
+    radius, height, runout = sizes
+    depths: dict[str, dict[float, float]] = {kind.name: {} for kind in kinds}
+    values = sorted({a_H for kind in kinds for a_H in kind.runs["a_H"]})
+    looks = _style.looks_of(values, palette="plasma", light=0.7)
+    for kind in kinds:
+        for _, row in kind.runs.iterrows():
+            end = _profiles.at(shapes[row["id"]], None)
+            if end is None:
+                continue
+            a_H, look = row["a_H"], looks[row["a_H"]]
+            depth = 100 * float(np.interp(runout * radius, end.x, end.values)) / height
+            depths[kind.name][a_H] = depth
+            label = _words.equation("a_H", a_H) if kind is kinds[-1] else None
+            ax.plot(end.x / radius, 100 * end.values / height, **kind.line(look), label=label)
+            ax.plot(runout, depth, look["marker"], color=look["color"], markeredgewidth=0, markersize=5)
     for threshold in naming.FRONT_THRESHOLDS:
         ax.axhline(100 * threshold, color=_style.GREY, linewidth=0.7, linestyle=":")
     ax.axvline(runout, ymax=0.72, **LAW, label=f"laboratory law, {runout:.2f} $R$")
@@ -117,22 +140,23 @@ def _foot(
     return depths
 
 
-def _notes(depths: dict[float, float], fronts: dict[float, float], runout: float) -> list[str]:
+def _notes(kinds: list[_kinds.Kind], depths: dict[str, dict[float, float]], runout: float) -> list[str]:
     """Return what the figure measures where the law puts the edge of the deposit."""
     rule = "1 + 1.24 $a_2$ where $a_2$ < 1.7, else 1 + 1.6 $\\sqrt{a_2}$"
     notes = [
-        f"Vertical line: runout/$R$ of dry columns in the laboratory (Lube et al. 2004), {rule}: "
-        f"{runout:.2f}."
+        f"Vertical line: runout/$R$ of dry columns in the laboratory (Lube et al. 2004), {rule}: {runout:.2f}. Dotted: "
+        "the depths (1, 3, 5 %) that define fronts in the tables."
     ]
-    if depths:
-        there = ", ".join(f"{depth:.1f} % ({_words.equation('a_H', a_H)})" for a_H, depth in depths.items())
-        ends = ", ".join(f"{front:.2f}" for a_H, front in fronts.items() if a_H in depths)
-        notes.append(
-            f"The model's depth there, in $H_2$: {there}. Its {_words.THRESHOLD:.0%} front is at {ends} "
-            f"$R$. Dotted: "
-            "the depths (1, 3, 5 %) that define fronts in the tables."
-        )
-    if len(depths) > 1:
+    for kind in kinds:
+        there = depths[kind.name]
+        if not there:
+            continue
+        words = ", ".join(f"{depth:.1f} % ({_words.equation('a_H', a_H)})" for a_H, depth in there.items())
+        rows = kind.runs.set_index("a_H")[f"L_f_{_words.THRESHOLD_LABEL}_over_R"]
+        ends = ", ".join(f"{rows[a_H]:.2f}" for a_H in there)
+        text = f"Depth there, in $H_2$: {words}; {_words.THRESHOLD:.0%} front at {ends} $R$."
+        notes.append(kind.called(text))
+    if any(len(there) > 1 for there in depths.values()):
         notes.append(
             f"At $r$ = 0 the grains cannot feel the water: what differs between values of "
             f"{_words.SYMBOLS['a_H']} "

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import pandas as pd
 from matplotlib.figure import Figure
 
-from subslide.figures import _profiles, _slices, _style, _words
+from subslide.figures import _kinds, _profiles, _slices, _style, _words
 
 if TYPE_CHECKING:
     from subslide.results import Results
@@ -16,7 +16,7 @@ CATEGORY = "1 Shape of the grains"
 
 @_style.styled
 def draw(results: "Results") -> Figure:
-    """Return the figure: a panel for each time of the profiles, a line for each r.
+    """Return the figure: a panel for each time of the profiles, a line for each r and kind of numerics.
 
     Parameters
     ----------
@@ -29,12 +29,12 @@ def draw(results: "Results") -> Figure:
         A panel for each time, the end of the run last.
     """
     a_H = _slices.nearest(_slices.values_of(results, "a_H"), 1)
-    chosen = _slices.cut(results, by=("a_H", "r"), most={"r": 6}, a_H=a_H)
-    runs = chosen.runs
+    kinds = _kinds.of(results, by=("a_H", "r"), most={"r": 6}, a_H=a_H)
+    runs = pd.concat([kind.runs for kind in kinds])
     radius, height = _slices.sizes(runs)
     round_column = runs.iloc[0]["scene"] == "cylinder"
-    shapes = {row["r"]: _profiles.of_run(results, row["id"], "h2") for _, row in runs.iterrows()}
-    looks = _style.looks_of(shapes)
+    shapes = {row["id"]: _profiles.of_run(results, row["id"], "h2") for _, row in runs.iterrows()}
+    looks = _style.looks_of(sorted(runs["r"].unique()))
     times = [0.0, *_profiles.times_of(shapes.values(), 4), None]
     x_unit, unit, t_unit = (
         _words.length_unit(3 * radius),
@@ -48,17 +48,19 @@ def draw(results: "Results") -> Figure:
     for k, (ax, time) in enumerate(zip(axes, times, strict=True)):
         when = _words.moment(time, t_unit) if time is not None else "end of the run"
         ax.set_title(_words.panel(k, when))
-        for r, profiles in shapes.items():
-            profile = _profiles.at(profiles, time)
-            if profile is None:
-                missing.append(f"{_words.equation('r', r)}, {when}")
-                continue
-            ax.plot(profile.x * x_unit.factor, profile.values * unit.factor, **_style.line(looks[r]))
+        for kind in kinds:
+            for _, row in kind.runs.iterrows():
+                profile = _profiles.at(shapes[row["id"]], time)
+                if profile is None:
+                    missing.append(kind.called(f"{_words.equation('r', row['r'])}, {when}"))
+                    continue
+                x, depth = profile.x * x_unit.factor, profile.values * unit.factor
+                ax.plot(x, depth, **kind.line(looks[row["r"]]))
         if round_column:
             ax.axvline(radius * x_unit.factor, color=_style.GREY, linewidth=0.7, linestyle=":", zorder=0.5)
     far = (
         1.05 * max(_profiles.reach(profiles, 2e-3 * height) for profiles in shapes.values())
-        + runs.iloc[0]["dx"]
+        + runs["dx"].max()
     )
     begin = _profiles.start(shapes.values(), far)
     axes[0].set(xlim=(begin * x_unit.factor, far * x_unit.factor), ylim=(0, 1.1 * height * unit.factor))
@@ -66,12 +68,14 @@ def draw(results: "Results") -> Figure:
         ax.set_xlabel(_words.label("x", x_unit))
     for ax in axes[::columns]:
         ax.set_ylabel(_words.label("h2", unit))
-    notes = ["Dotted: edge of the column at release. " * round_column + _rest(runs, t_unit)]
+    notes = ["Dotted: edge of the column at release. " * round_column]
+    notes = [notes[0] + " ".join(kind.called(_rest(kind.runs, t_unit)) for kind in kinds)]
     if missing:
         notes.append(f"No profile: {'; '.join(missing)}.")
-    notes += [*chosen.notes, *_words.trouble(runs)]
+    notes += [*kinds[0].chosen.notes, *_words.trouble(runs)]
     title = f"Depth of the grains $h_2$ along $x$ for each $r$, {_words.equation('a_H', a_H)}"
-    return _style.finish(figure, title, chosen.about, notes, _style.handles(looks, "r", markers=False), 6)
+    legend = _style.handles(looks, "r", dashes=not kinds[0].name, markers=False)
+    return _style.finish(figure, title, _kinds.about(kinds), notes, legend, 6, _kinds.entries(kinds, False))
 
 
 def _rest(runs: pd.DataFrame, unit: _words.Unit) -> str:

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 TITLE = "Largest displacement of the water surface against time"
 CATEGORY = "3 Water surface"
 
+END = 1.1
+"""End of the axis of time, over the last of the paper's times."""
 ROWS = {"max_abs_eta": "whole box", "max_abs_eta_outside": "beyond $R$"}
 
 
@@ -66,7 +68,7 @@ def draw(results: "Results") -> Figure:
             ax.set_ylim(bottom=0)
     if len(kinds) > 1:
         _logarithmic(axes, columns, curves, times, units.value)
-    axes[0].set_xlim(0, 1.1 * times[-1] * units.time.factor)
+    axes[0].set_xlim(0, END * times[-1] * units.time.factor)
     for ax in axes[::columns]:
         ax.set_ylabel(_words.label("max_abs_eta", units.value))
     for ax in _style.bottom_row(axes, columns):
@@ -111,7 +113,7 @@ def _notes(
     return [
         f"Dotted lines and symbols: {stated} {unit.name}, the paper's times{scaled}. The surface is watched to "
         f"{PAPER_BOX:.2f} $R$. Each row has its own scale.{_longest(kinds)}",
-        *_water.reflected("Grey", shown),
+        *_water.reflected("Grey", shown, END * times[-1]),
         *_water.convergence(results, kinds, times[:2], unit),
     ]
 

@@ -3,9 +3,10 @@
 from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 from matplotlib.figure import Figure
 
-from subslide.figures import _profiles, _slices, _style, _water, _words
+from subslide.figures import _kinds, _profiles, _slices, _style, _water, _words
 from subslide.points import PAPER_BOX
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ CATEGORY = "3 Water surface"
 
 @_style.styled
 def draw(results: "Results") -> Figure:
-    """Return the figure: a row for each time, a column for each a_H, a line for each r.
+    """Return the figure: a row for each time, a column for each a_H, a line for each r and kind of numerics.
 
     Parameters
     ----------
@@ -30,15 +31,13 @@ def draw(results: "Results") -> Figure:
         A panel for each time and depth of water.
     """
     known = _slices.values_of(results, "a_H")
-    chosen = _slices.cut(results, most={"r": 6}, a_H=[_slices.nearest(known, 1), _slices.nearest(known, 2)])
-    runs, dry = _water.wet(chosen.runs)
+    kinds = _kinds.of(results, most={"r": 6}, a_H=[_slices.nearest(known, 1), _slices.nearest(known, 2)])
+    runs, dry = _water.wet(pd.concat([kind.runs for kind in kinds]))
     shown, left_out = _water.buoyant(runs)
-    radius, _ = _slices.sizes(chosen.runs)
+    radius, _ = _slices.sizes(kinds[0].runs)
     looks = {r: look for r, look in _style.looks_of(runs["r"].unique()).items() if r in set(shown["r"])}
-    round_column = chosen.runs.iloc[0]["scene"] == "cylinder"
-    shapes = {
-        (row["a_H"], row["r"]): _profiles.of_run(results, row["id"], "eta") for _, row in shown.iterrows()
-    }
+    round_column = kinds[0].runs.iloc[0]["scene"] == "cylinder"
+    shapes = {row["id"]: _profiles.of_run(results, row["id"], "eta") for _, row in shown.iterrows()}
     depths = sorted(shown["a_H"].unique()) or [np.nan]
     times = _profiles.times_of(shapes.values(), 4)
     waves = [p.values for profiles in shapes.values() for p in profiles]
@@ -55,14 +54,17 @@ def draw(results: "Results") -> Figure:
         time, a_H = times[k // columns], depths[k % columns]
         where = f"{_words.equation('a_H', a_H)}, {_words.moment(time, t_unit)}"
         ax.set_title(_words.panel(k, where))
-        if (shown["wave_free_until"][shown["a_H"] == a_H] < time).any():
+        rows = shown[shown["a_H"] == a_H]
+        if (rows["wave_free_until"] < time).any():
             ax.set_facecolor(_water.REFLECTED)
-        for r, look in looks.items():
-            profile = _profiles.at(shapes.get((a_H, r), []), time)
-            if profile is None:
-                missing.append(f"{_words.equation('r', r)}, {where}")
-                continue
-            ax.plot(profile.x * x_unit.factor, profile.values * unit.factor, **_style.line(look))
+        for kind in kinds:
+            for _, row in rows[rows["id"].isin(kind.runs["id"])].iterrows():
+                profile = _profiles.at(shapes[row["id"]], time)
+                if profile is None:
+                    missing.append(kind.called(f"{_words.equation('r', row['r'])}, {where}"))
+                    continue
+                x, displacement = profile.x * x_unit.factor, profile.values * unit.factor
+                ax.plot(x, displacement, **kind.line(looks[row["r"]]))
         ax.axhline(0, color="black", linewidth=0.5, zorder=0.5)
         if round_column:
             ax.axvline(radius * x_unit.factor, color=_style.GREY, linewidth=0.7, linestyle=":", zorder=0.5)
@@ -83,10 +85,16 @@ def draw(results: "Results") -> Figure:
     if not times:
         notes = ["No run of this study has a profile of the water surface."]
     elif len(shown):
-        notes += _water.beside(results, chosen, times[:2], t_unit)
+        notes += _water.convergence(results, kinds, times[:2], t_unit, bars=False)
     if missing:
         notes.append(f"No profile: {'; '.join(missing)}.")
-    late = shown[shown["wave_free_until"] < max(times, default=0.0)]
-    notes += [*_water.reflected("Grey panels", late), *left_out, *dry, *chosen.notes, *_words.trouble(shown)]
+    notes += [
+        *_water.reflected("Grey panels", shown, max(times, default=0.0)),
+        *left_out,
+        *dry,
+        *kinds[0].chosen.notes,
+        *_words.trouble(shown),
+    ]
     title = f"Displacement of the water surface {_words.SYMBOLS['eta']} along $x$"
-    return _style.finish(figure, title, chosen.about, notes, _style.handles(looks, "r", markers=False), 6)
+    legend = _style.handles(looks, "r", dashes=not kinds[0].name, markers=False)
+    return _style.finish(figure, title, _kinds.about(kinds), notes, legend, 6, _kinds.entries(kinds, False))
