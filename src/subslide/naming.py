@@ -9,6 +9,9 @@ from typing import NamedTuple
 FRONT_THRESHOLDS = (0.01, 0.03, 0.05)
 """Depths that define the front, as fractions of the column's height H2; the first is the default."""
 
+ARREST = 0.005
+"""Share of the length of its deposit within which a front counts as arrested: the last grains stop cell by cell."""
+
 
 class Name(NamedTuple):
     """One quantity: symbol in text, NetCDF dimensions, unit (UDUNITS) and long name."""
@@ -66,11 +69,18 @@ SCALARS = {
         "m",
         "length of the deposit along the positive x axis at the end of the run: x_front there",
     ),
+    "time_of_arrest": Name(
+        "t_arrest",
+        ("run", "front_threshold"),
+        "s",
+        f"time since which x_front has been within {100 * ARREST:g} % of L_f; missing where L_f is 0 or missing, or if"
+        " grains move at the end",
+    ),
     "time_at_rest": Name(
         "t_rest",
         ("run",),
         "s",
-        "time since which no grain has moved (late waves may nudge a few)",
+        "time since which no grain has moved (late waves may nudge a few; has no limit as cells shrink)",
     ),
     "box_half_width": Name("L", ("run",), "m", "half-width of the computational box"),
     "wave_free_until": Name(

@@ -50,6 +50,7 @@ def made_up_run(point: Point, steps: int = 20, grown: int = 0, **changes) -> Sim
         h2_field=np.ones((3, len(x), len(x)), np.float32) if point.fields else None,
         eta_field=np.zeros((3, len(x), len(x)), np.float32) if point.fields else None,
         L_f=front[:, -1],
+        time_of_arrest=np.full(3, 0.99),
         status="ok",
         status_detail="at rest",
         steps=steps,

@@ -12,6 +12,7 @@ from subslide.models.limits import inner
 from subslide.models.model import Model
 from subslide.naming import FINISHED, FRONT_THRESHOLDS, STATUSES
 from subslide.points import Point
+from subslide.solver.arrest import time_of_arrest
 from subslide.solver.run import Run
 from subslide.study import choice
 
@@ -227,6 +228,7 @@ def make_run(
         steps=len(sampled) - 1,
         wall_seconds=wall,
         wave_free_until=wave_free_until(point, room, time, series["max_abs_eta_outside"]),
+        time_of_arrest=np.array([time_of_arrest(time, one) if rested else np.nan for one in front]),
         time_at_rest=float(clock[k.REST_SINCE] * time_scale if rested else np.nan),
         box_half_width=model.half_width * point.radius,
     )
