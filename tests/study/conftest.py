@@ -39,6 +39,7 @@ def made_up_run(point: Point, steps: int = 20, grown: int = 0, **changes) -> Sim
         x_front=front,
         max_abs_eta=height * np.sin(np.pi * time),
         max_abs_eta_outside=height * np.sin(np.pi * time) / 2,
+        eta_gauge=-height * np.sin(np.pi * time) / 3,
         sediment_volume=np.full(steps + 1, 2.0),
         water_volume=np.full(steps + 1, 3.0),
         energy=3 - time,

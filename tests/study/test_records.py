@@ -25,6 +25,7 @@ PROMISED = {
     "time": ("run", "step"),
     "max_abs_eta": ("run", "step"),
     "max_abs_eta_outside": ("run", "step"),
+    "eta_gauge": ("run", "step"),
     "sediment_volume": ("run", "step"),
     "water_volume": ("run", "step"),
     "energy": ("run", "step"),

@@ -81,6 +81,8 @@ def series_in_si(model: Model, point: Point, sampled: np.ndarray) -> dict[str, n
     # 0 where no cell beyond the axis reaches the threshold: there is the edge of a dam, or nothing
     at_axis = choice.of(point).geometry == "line" and column[samples.COLUMN["sediment_volume"]].max() > 0
     series = {"x_front": np.where((front > 0) | at_axis, front * si.length, np.nan)}
+    alone = model.settings.layers == 1
+    series["eta_gauge"] = column[samples.GAUGE] * (math.nan if alone else si.height)
     for name, measured in measures.SERIES.items():
         known = model.settings.layers >= measured.layers
         values = column[samples.COLUMN[name]]

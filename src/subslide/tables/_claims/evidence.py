@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 THRESHOLDS = tuple(FRONT_LABELS)
 FRONT = f"x_front_{THRESHOLDS[0]}"
+GAUGE = "eta_gauge"
 WAVES = {"max_abs_eta": "whole box", "max_abs_eta_outside": "beyond R"}
 
 
@@ -91,11 +92,14 @@ class Evidence:
 
     @functools.cache  # noqa: B019
     def wave(self, quantity: str) -> Field:
-        """Return the largest max|eta| (m) among the paper's times, with the band of that one.
+        """Return the largest max|eta| (m) among the paper's times, with the band of that one; or the peak at the gauge.
 
-        The maximum over all time is no measure: at release the water beside the column leaps at once, and waves that
-        meet on the axis have no limit that a grid would reach.
+        The maximum of max|eta| over all time is no measure: at release the water beside the column leaps at once, and
+        waves that meet on the axis have no limit that a grid would reach.
         """
+        if quantity == GAUGE:
+            name = f"{GAUGE}_peak"
+            return self._field(self.runs.set_index("id")[name], self._band_of(name))
         fields = [self.at_time(quantity, time) for time in self.times]
         values, bands = (np.array([field[n].to_numpy(float) for field in fields]) for n in (0, 1))
         place = np.where(np.isnan(values), -np.inf, values).argmax(axis=0)[None]
