@@ -9,6 +9,12 @@ from typing import NamedTuple
 FRONT_THRESHOLDS = (0.01, 0.03, 0.05)
 """Depths that define the front, as fractions of the column's height H2; the first is the default."""
 
+ARREST = 0.005
+"""Share of the length of its deposit within which a front counts as arrested: the last grains stop cell by cell."""
+
+GAUGE = 2.0
+"""Place of the wave gauge on the x axis, over R."""
+
 
 class Name(NamedTuple):
     """One quantity: symbol in text, NetCDF dimensions, unit (UDUNITS) and long name."""
@@ -30,9 +36,21 @@ SERIES = {
         "distance from the axis to the farthest point on the positive x axis where h2 exceeds the threshold; missing"
         " where there is none",
     ),
-    "max_abs_eta": Name("max|η|", STEP, "m", "largest displacement of the water surface in the initial box"),
+    "max_abs_eta": Name(
+        "max|η|",
+        STEP,
+        "m",
+        "largest displacement of the water surface in the initial box; where waves meet on the axis it has no limit as"
+        " cells shrink",
+    ),
     "max_abs_eta_outside": Name(
         "max|η| (x > R)", STEP, "m", "largest displacement of the water surface beyond R in the initial box"
+    ),
+    "eta_gauge": Name(
+        "η(2 R)",
+        STEP,
+        "m",
+        f"displacement of the water surface at a gauge, {GAUGE:g} R from the axis along x",
     ),
     "sediment_volume": Name("V2", STEP, "m3", "volume of grains in the box"),
     "water_volume": Name("V1", STEP, "m3", "volume of water in the box"),
@@ -66,11 +84,18 @@ SCALARS = {
         "m",
         "length of the deposit along the positive x axis at the end of the run: x_front there",
     ),
+    "time_of_arrest": Name(
+        "t_arrest",
+        ("run", "front_threshold"),
+        "s",
+        f"time since which x_front has been within {100 * ARREST:g} % of L_f; missing where L_f is 0 or missing, or if"
+        " grains move at the end",
+    ),
     "time_at_rest": Name(
         "t_rest",
         ("run",),
         "s",
-        "time since which no grain has moved (late waves may nudge a few)",
+        "time since which no grain has moved (late waves may nudge a few; has no limit as cells shrink)",
     ),
     "box_half_width": Name("L", ("run",), "m", "half-width of the computational box"),
     "wave_free_until": Name(

@@ -107,7 +107,11 @@ def made_up_run(row):
     wet = row["resolved_model"] != "one-layer"
     row["wave_free_until"] = free.get(row["boundary"], np.nan) if wet else np.nan
     for name, value in zip(("L_f_1pc", "L_f_3pc", "L_f_5pc"), lengths, strict=True):
-        row |= {name: value, f"{name}_over_R": value / radius}
+        row |= {
+            name: value,
+            f"{name}_over_R": value / radius,
+            name.replace("L_f", "time_of_arrest"): 0.9 * rest,
+        }
     return xr.Dataset(
         {
             "time": ("step", time),

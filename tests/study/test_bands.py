@@ -32,7 +32,7 @@ def first_order(make_run):
 
     def make(point, **changes):
         run = make_run(point, steps=round(40 / point.dx**0.5))
-        for name in ("x_front", "max_abs_eta", "max_abs_eta_outside"):
+        for name in ("x_front", "max_abs_eta", "max_abs_eta_outside", "eta_gauge"):
             setattr(run, name, getattr(run, name) * (1 + 10 * point.dx))
         run.L_f = FINAL - np.array([1, 0.5, 0.1]) * point.dx
         vars(run).update(changes)
@@ -102,7 +102,7 @@ def test_a_run_that_never_rests_has_bands(finish, first_order):
 def test_what_a_run_does_not_have_has_no_row(finish, first_order):
     def make(point):
         run = first_order(point)
-        run.max_abs_eta = run.max_abs_eta_outside = np.full(len(run.time), np.nan)
+        run.max_abs_eta = run.max_abs_eta_outside = run.eta_gauge = np.full(len(run.time), np.nan)
         return run
 
     results = finish(make, a_H=[1])

@@ -21,9 +21,11 @@ from subslide.results import open_record, trimmed
 PROMISED = {
     "x_front": ("run", "front_threshold", "step"),
     "L_f": ("run", "front_threshold"),
+    "time_of_arrest": ("run", "front_threshold"),
     "time": ("run", "step"),
     "max_abs_eta": ("run", "step"),
     "max_abs_eta_outside": ("run", "step"),
+    "eta_gauge": ("run", "step"),
     "sediment_volume": ("run", "step"),
     "water_volume": ("run", "step"),
     "energy": ("run", "step"),

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import pandas as pd
 from matplotlib.figure import Figure
 
+from subslide import naming
 from subslide.figures import _kinds, _profiles, _slices, _style, _words
 
 if TYPE_CHECKING:
@@ -79,10 +80,12 @@ def draw(results: "Results") -> Figure:
 
 
 def _rest(runs: pd.DataFrame, unit: _words.Unit) -> str:
-    """Return when each run came to rest, in words."""
+    """Return when the front of each run that came to rest was at its end, in words."""
     still = runs[runs["time_at_rest"].notna()]
     if still.empty:
         return "No run came to rest."
-    times = ", ".join(f"{float(f'{time * unit.factor:.3g}'):g}" for time in still["time_at_rest"])
+    arrived = still["time_of_arrest_1pc"]
+    times = ", ".join(f"{float(f'{time * unit.factor:.3g}'):g}" for time in arrived)
     ratios = ", ".join(_words.number(r) for r in still["r"])
-    return f"Every grain is at rest after {times} {unit.name} for {_words.SYMBOLS['r']} = {ratios}."
+    near = f"within {100 * naming.ARREST:g} % of {_words.SYMBOLS['L_f']}"
+    return f"The 1 % front is {near} from {times} {unit.name} on for {_words.SYMBOLS['r']} = {ratios}."

@@ -17,6 +17,7 @@ from subslide.kernels.axial import (
 from subslide.kernels.axial_faces import faces, water_faces
 from subslide.kernels.boundary import PERIODIC, lets_out
 from subslide.kernels.front import front_position
+from subslide.kernels.gauge import displacement
 from subslide.kernels.hyperbolicity import judged
 from subslide.kernels.jit import inlined, launch
 from subslide.kernels.measures import RowSpan
@@ -33,6 +34,7 @@ def sample(s, c, mesh, watch, thresholds, low, high, wet, now, row):
     row[samples.TIME] = now
     for m in range(samples.FRONTS):
         row[samples.FRONT + m] = front_position(c.h2, c.h2, watch.beside, wet[1], thresholds[m], s.dx)
+    row[samples.GAUGE] = displacement(c.eta, c.eta, watch.level, watch.beside, s.dx)
     start, stop = watch.start, watch.stop
     span = RowSpan(low, high, wet[0], wet[1], start, start, min(watch.beyond, stop), stop)
     measures.fill(s, c, mesh, watch, span, row, samples.MEASURED)

@@ -29,6 +29,7 @@ from subslide.kernels.active import (
 from subslide.kernels.arrays import BEFORE, GHOSTS, flux_row, row_of, side_row, side_row_turned
 from subslide.kernels.boundary import PERIODIC, join_plane, lets_out
 from subslide.kernels.front import front_position
+from subslide.kernels.gauge import displacement
 from subslide.kernels.hyperbolicity import judged
 from subslide.kernels.jit import driver, inlined, launch
 from subslide.kernels.measures import RowSpan
@@ -95,6 +96,7 @@ def collect(s, c, watch, thresholds, spans, rows, now, sample):
         sample[samples.FRONT + m] = front_position(
             c.h2[below], c.h2[above], watch.beside, stop, thresholds[m], s.dx
         )
+    sample[samples.GAUGE] = displacement(c.eta[below], c.eta[above], watch.level, watch.beside, s.dx)
     measures.start_joining(sample, samples.MEASURED)
     for j in range(GHOSTS, rows.shape[0] - GHOSTS):
         measures.join(sample, samples.MEASURED, rows[j], MEASURED)

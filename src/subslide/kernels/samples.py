@@ -1,4 +1,4 @@
-"""Columns of a sample: time, the fronts, and what `measures` gives of a state, in the order of `measures.SERIES`."""
+"""Columns of a sample: time, fronts, gauge, and what `measures` gives of a state, in the order of `measures.SERIES`."""
 
 import math
 
@@ -9,7 +9,8 @@ from subslide.naming import FRONT_THRESHOLDS
 TIME = 0
 FRONT = 1
 FRONTS = len(FRONT_THRESHOLDS)
-MEASURED = FRONT + FRONTS
+GAUGE = FRONT + FRONTS
+MEASURED = GAUGE + 1
 COLUMNS = MEASURED + measures.COUNT
 COLUMN = {name: MEASURED + place for name, place in measures.PLACE.items()}
 """Column of each measured series."""

@@ -24,8 +24,8 @@ MOST_SHOWN = 1_000_000
 """Bytes of the largest table whose rows it shows."""
 
 SHOWN = (
-    *("status", "L_f_1pc", "L_f_1pc_over_R", "time_at_rest"),
-    *("max_abs_eta_peak", "max_abs_eta_outside_peak"),
+    *("status", "L_f_1pc", "L_f_1pc_over_R", "time_of_arrest_1pc", "time_at_rest"),
+    *("max_abs_eta_peak", "max_abs_eta_outside_peak", "eta_gauge_peak"),
 )
 """Columns of the table of runs that the page shows, after the keys that vary."""
 
@@ -101,7 +101,7 @@ def _outcome(runs: "pd.DataFrame") -> str:
     ended = runs[runs["status"].isin(FINISHED)]
     for column, words in (
         ("L_f_1pc_over_R", "Final length L_f over R (1 % front)"),
-        ("max_abs_eta_outside_peak", "Largest wave beyond R (m)"),
+        ("eta_gauge_peak", "Largest wave at 2 R (m)"),
     ):
         values = ended[column].dropna()
         if len(values):

@@ -13,6 +13,7 @@ from subslide.models.limits import inner
 from subslide.models.model import Model
 from subslide.naming import FINISHED, FRONT_THRESHOLDS, STATUSES
 from subslide.points import Point
+from subslide.solver.arrest import time_of_arrest
 from subslide.solver.run import Run
 from subslide.study import choice
 
@@ -81,6 +82,8 @@ def series_in_si(model: Model, point: Point, sampled: np.ndarray) -> dict[str, n
     # 0 where no cell beyond the axis reaches the threshold: there is the edge of a dam, or nothing
     at_axis = choice.of(point).geometry == "line" and column[samples.COLUMN["sediment_volume"]].max() > 0
     series = {"x_front": np.where((front > 0) | at_axis, front * si.length, np.nan)}
+    alone = model.settings.layers == 1
+    series["eta_gauge"] = column[samples.GAUGE] * (math.nan if alone else si.height)
     for name, measured in measures.SERIES.items():
         known = model.settings.layers >= measured.layers
         values = column[samples.COLUMN[name]]
@@ -228,6 +231,7 @@ def make_run(
         steps=len(sampled) - 1,
         wall_seconds=wall,
         wave_free_until=wave_free_until(point, room, time, series["max_abs_eta_outside"]),
+        time_of_arrest=np.array([time_of_arrest(time, one) if rested else np.nan for one in front]),
         time_at_rest=float(clock[k.REST_SINCE] * time_scale if rested else np.nan),
         box_half_width=model.half_width * point.radius,
     )

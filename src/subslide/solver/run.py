@@ -35,6 +35,9 @@ class Run:
         How the run ended, one of `naming.STATUSES`, and what ended it, in words.
     steps, wall_seconds
         Time steps, and seconds of the time loop alone.
+    time_of_arrest
+        Time (thresholds) in s since which the front has been within `naming.ARREST` of L_f; NaN where L_f is 0 or NaN,
+        or if grains move at the end.
     time_at_rest
         Time in s since which no grain has moved; NaN if there is none.
     box_half_width
@@ -62,6 +65,7 @@ class Run:
     steps: int
     wall_seconds: float
     wave_free_until: float
+    time_of_arrest: np.ndarray
     time_at_rest: float
     box_half_width: float
 

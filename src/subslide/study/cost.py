@@ -41,7 +41,7 @@ PROCESS = 250e6
 """Bytes of a process that has loaded its kernels (180e6), and some; compiling them takes up to 1e9 (`jobs.warm`)."""
 ARRAYS, AXIAL_ARRAYS = 44, 80
 """Numbers of the working precision that the solver keeps of each cell of the plane, and of a line or radius."""
-SERIES = 11
+SERIES = 12
 """Numbers of 8 bytes that a sample has."""
 MOST_SAMPLES = 10_000
 """Samples of a run that a record keeps."""

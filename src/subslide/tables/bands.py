@@ -14,6 +14,7 @@ from subslide.naming import FINISHED, FRONT_LABELS
 from subslide.points import Point
 from subslide.study.config import COARSENING, Study
 from subslide.tables import _convergence as convergence
+from subslide.tables import _gauge as gauge
 from subslide.tables._convergence import FORMAL_ORDER
 
 if TYPE_CHECKING:
@@ -35,13 +36,14 @@ COLUMNS = {
 }
 WORDS = ("id", "quantity", "convergence")
 WAVES = ("max_abs_eta", "max_abs_eta_outside")
-ONCE = (*(f"L_f_{label}" for label in FRONT_LABELS), *(f"{name}_peak" for name in WAVES))
+ONCE = (*(f"L_f_{label}" for label in FRONT_LABELS), *(f"{name}_peak" for name in (*WAVES, "eta_gauge")))
 """Quantities of a run as a whole; the others are taken at the times of its snapshots."""
 
 QUANTITIES = {
     **{f"L_f_{t}": f"final length of the deposit ({t[:-2]} % front)" for t in FRONT_LABELS},
     "max_abs_eta_peak": "largest displacement of the water surface over all time",
     "max_abs_eta_outside_peak": "the same beyond R",
+    "eta_gauge_peak": gauge.MEANING,
     **{f"x_front_{t}": f"front at the times of the snapshots ({t[:-2]} % front)" for t in FRONT_LABELS},
     "max_abs_eta": "largest displacement of the water surface at the times of the snapshots",
     "max_abs_eta_outside": "the same beyond R",
@@ -49,7 +51,7 @@ QUANTITIES = {
 SUMMARY = ("limit", "band", "convergence")
 """Columns that the table of runs repeats for each quantity of a run as a whole."""
 
-MEASURED = ("time", "x_front", "L_f", *WAVES, "snapshot_time", "status")
+MEASURED = ("time", "x_front", "L_f", *WAVES, "eta_gauge", "snapshot_time", "status")
 """Variables of records that are compared."""
 
 
@@ -137,6 +139,7 @@ def measure(point: Point, record: dict) -> Measured:
     }
     for name in WAVES:
         values[f"{name}_peak", None] = float(np.nanmax(series[name], initial=-math.inf))
+    values["eta_gauge_peak", None] = gauge.peak(point, record["time"], record["eta_gauge"])[0]
     instants = [time for time in record["snapshot_time"].tolist() if time > 0 and time in point.profile_times]
     for name, entries in series.items():
         for instant in instants:
@@ -166,6 +169,6 @@ def rows(point: Point, *grids: Measured) -> Iterator[dict]:
         f1, f2, f3 = (grid.values.get((quantity, time), math.nan) for grid in grids)
         estimate = convergence.UNKNOWN
         if all(grid.finished for grid in grids):
-            scale = depth if quantity.startswith(WAVES) else 0.0
+            scale = depth if "eta" in quantity else 0.0
             estimate = convergence.estimate(f1, f2, f3, FORMAL_ORDER, scale=scale, dtype=point.dtype)
         yield dict(zip(COLUMNS, (point.id, quantity, time, f1, f2, f3, *estimate), strict=True))

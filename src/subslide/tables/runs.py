@@ -15,6 +15,7 @@ from subslide.naming import FRONT_LABELS
 from subslide.points import PAPER_BOX, RUN_KEYS, options_text
 from subslide.study.config import Study
 from subslide.tables import _energy as energy
+from subslide.tables import _gauge as gauge
 from subslide.tables import bands
 
 if TYPE_CHECKING:
@@ -65,6 +66,15 @@ def _length_over_radius(label: str, n: int) -> Column:
     return Column("", about, lambda run, record: record["L_f"][n] / run.point.radius)
 
 
+def _arrest(label: str, n: int) -> Column:
+    """Return the column of the time of arrest at one threshold of the front."""
+    about = (
+        f"time since which that front ({label[:-2]} % of H2) has been within {100 * naming.ARREST:g} % of its L_f;"
+        " empty where L_f is 0 or empty, or if grains move at the end"
+    )
+    return Column("s", about, lambda run, record: record["time_of_arrest"][n])
+
+
 def _peak(name: str, meaning: str) -> Column:
     """Return the column of the largest value of a series."""
     return Column("m", meaning, lambda run, record: peak(record[name], record["time"])[0])
@@ -83,11 +93,21 @@ def _volume_error(name: str, meaning: str) -> Column:
 
 
 STATUS = "how the run ended: " + "; ".join(f"`{name}`: {text}" for name, text in naming.STATUSES.items())
-REST = "time since which no grain has moved (late waves may nudge a few); empty if some move at the end"
+REST = (
+    "time since which no grain has moved (late waves may nudge a few); empty if some move at the end. Has no limit as"
+    " cells shrink; the times of arrest do"
+)
 MARGIN = (
     "smallest margin to complex wave speeds at any time, a discriminant: 1 at rest, below 0 where complex"
 )
-WATCHED = "largest displacement of the water surface, over the initial box and all time"
+WATCHED = (
+    "largest displacement of the water surface, over the initial box and all time; where waves meet on the axis it has"
+    " no limit as cells shrink"
+)
+OUTSIDE = (
+    "the same beyond x = R, where waves are not focused; often the jump at the start, or the sharp head of a wave: it"
+    " converges slowly, `eta_gauge_peak` does not"
+)
 KEPT = "largest relative change of the volume of grains while nothing can have left the box"
 RISE = (
     "largest rise of the energy after any moment, over what the start can release (its energy less that of flat layers"
@@ -113,12 +133,19 @@ COLUMNS_OF_RUN = {
     "wave_free_until": _recorded("wave_free_until", "s", naming.SCALARS["wave_free_until"].long_name),
     **{f"L_f_{label}": _length(label, n) for label, n in FRONT_LABELS.items()},
     **{f"L_f_{label}_over_R": _length_over_radius(label, n) for label, n in FRONT_LABELS.items()},
+    **{f"time_of_arrest_{label}": _arrest(label, n) for label, n in FRONT_LABELS.items()},
     "max_abs_eta_peak": _peak("max_abs_eta", WATCHED),
     "max_abs_eta_peak_time": _peak_time("max_abs_eta"),
-    "max_abs_eta_outside_peak": _peak(
-        "max_abs_eta_outside", "the same beyond x = R, where waves are not focused"
-    ),
+    "max_abs_eta_outside_peak": _peak("max_abs_eta_outside", OUTSIDE),
     "max_abs_eta_outside_peak_time": _peak_time("max_abs_eta_outside"),
+    "eta_gauge_peak": Column(
+        "m", gauge.MEANING, lambda run, record: gauge.peak(run.point, record["time"], record["eta_gauge"])[0]
+    ),
+    "eta_gauge_peak_time": Column(
+        "s",
+        "middle of that time",
+        lambda run, record: gauge.peak(run.point, record["time"], record["eta_gauge"])[1],
+    ),
     "sediment_volume_error": _volume_error("sediment_volume", KEPT),
     "water_volume_error": _volume_error("water_volume", "the same for water"),
     "energy_rise": Column("", RISE, lambda run, record: energy_rise(run, record)),
@@ -143,7 +170,8 @@ WORDS = (
 )
 MEASURED = (
     *("model", "dx", "status", "status_detail", "steps", "time_at_rest", "box_half_width", "L_f", "time"),
-    *("wave_free_until", "energy", "max_abs_eta", "max_abs_eta_outside", "sediment_volume", "water_volume"),
+    *("time_of_arrest", "wave_free_until", "energy", "max_abs_eta", "max_abs_eta_outside", "eta_gauge"),
+    *("sediment_volume", "water_volume"),
     *("nonhyperbolic_cells", "hyperbolic_margin"),
 )
 """Variables of records that the table follows from."""

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 import pandas as pd
 
-from subslide.naming import FRONT_LABELS
+from subslide.naming import ARREST, FRONT_LABELS
 from subslide.points import RUN_KEYS, paper_times
 
 if TYPE_CHECKING:
@@ -14,9 +14,8 @@ if TYPE_CHECKING:
 
 THRESHOLDS = tuple(FRONT_LABELS)
 FRONT = f"x_front_{THRESHOLDS[0]}"
+GAUGE = "eta_gauge"
 WAVES = {"max_abs_eta": "whole box", "max_abs_eta_outside": "beyond R"}
-ARRIVED = 0.99
-"""Fraction of its final length at which a front counts as arrived: the last grains stop cell by cell."""
 
 
 SHALLOW, DEEP = 1.0, 10.0
@@ -93,11 +92,14 @@ class Evidence:
 
     @functools.cache  # noqa: B019
     def wave(self, quantity: str) -> Field:
-        """Return the largest max|eta| (m) among the paper's times, with the band of that one.
+        """Return the largest max|eta| (m) among the paper's times, with the band of that one; or the peak at the gauge.
 
-        The maximum over all time is no measure: at release the water beside the column leaps at once, and waves that
-        meet on the axis have no limit that a grid would reach.
+        The maximum of max|eta| over all time is no measure: at release the water beside the column leaps at once, and
+        waves that meet on the axis have no limit that a grid would reach.
         """
+        if quantity == GAUGE:
+            name = f"{GAUGE}_peak"
+            return self._field(self.runs.set_index("id")[name], self._band_of(name))
         fields = [self.at_time(quantity, time) for time in self.times]
         values, bands = (np.array([field[n].to_numpy(float) for field in fields]) for n in (0, 1))
         place = np.where(np.isnan(values), -np.inf, values).argmax(axis=0)[None]
@@ -105,7 +107,7 @@ class Evidence:
         return Field(*(pd.DataFrame(np.take_along_axis(x, place, 0)[0], **like) for x in (values, bands)))
 
     def arrival(self) -> Field:
-        """Return the time (s) at which the front comes within 1 % of its final length, and what L_f's band moves it."""
+        """Return the time of arrest (s) of the front, and what the band of L_f moves it by."""
         length = self.length()
         values, bands = {}, {}
         for _, run in self.runs.iterrows():
@@ -115,10 +117,11 @@ class Evidence:
             time, front = self._series[FRONT, name]
             front = np.maximum.accumulate(front)
             final, band = length.at(run["a_H"], run["r"])
-            values[name], early, late = (
-                _first(time, front, ARRIVED * level) for level in (final, final - band, final + band)
+            there, early, late = (
+                _first(time, front, (1 - ARREST) * level) for level in (final, final - band, final + band)
             )
-            bands[name] = max(late - values[name], values[name] - early) if self.banded else 0.0
+            values[name] = run[f"time_of_arrest_{THRESHOLDS[0]}"]
+            bands[name] = max(late - there, there - early) if self.banded else 0.0
         return self._field(pd.Series(values, dtype=float), pd.Series(bands, dtype=float))
 
     def _band_of(self, quantity: str, time: float | None = None) -> pd.Series:

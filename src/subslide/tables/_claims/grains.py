@@ -135,7 +135,7 @@ CLAIMS = (
     Claim(
         "deposit reached sooner for smaller r",
         "4, 5",
-        f"time at which the front ({FRONT}) is within 1 % of L_f rises with r, at every a_H; ms",
+        f"time of arrest of the front ({FRONT}) rises with r, at every a_H; ms",
         arrives_sooner,
     ),
     Claim(

@@ -2,7 +2,8 @@
 
 from functools import partial
 
-from subslide.tables._claims.evidence import DEEP, SHALLOW, WAVES, Evidence
+from subslide import naming
+from subslide.tables._claims.evidence import DEEP, GAUGE, SHALLOW, WAVES, Evidence
 from subslide.tables._claims.verdicts import (
     Claim,
     Comparison,
@@ -67,8 +68,10 @@ def almost_no_wave_when_deep(quantity: str, evidence: Evidence) -> Finding | Non
 def _about_waves() -> list[Claim]:
     """Return each claim on the surface, over each region."""
     claims = []
-    for quantity, where in WAVES.items():
+    for quantity, where in {**WAVES, GAUGE: f"at {naming.GAUGE:g} R"}.items():
         each, top = f"max|eta| ({where})", f"largest max|eta| ({where}) among the paper's times"
+        if quantity == GAUGE:
+            top = f"{GAUGE}_peak"
         for words, section, measure, judge in (
             (
                 "wave bigger for smaller r",
@@ -107,6 +110,8 @@ def _about_waves() -> list[Claim]:
                 partial(amplitude_complex_between, quantity),
             ),
         ):
+            if quantity == GAUGE and each in measure:
+                continue  # of a gauge there is a peak alone
             claims.append(Claim(f"{words} ({where})", section, measure, judge))
     return claims
 

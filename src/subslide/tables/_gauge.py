@@ -1,0 +1,44 @@
+"""The wave at the gauge: a peak that has a limit as cells shrink."""
+
+import math
+
+import numpy as np
+
+from subslide.naming import GAUGE
+from subslide.points import Point
+
+SHARE = 0.5
+"""Way over R that a wave goes in the time over which the surface is averaged."""
+
+MEANING = (
+    f"largest displacement of the water surface at the gauge ({GAUGE:g} R along x), up or down, in the mean over the"
+    f" time that a wave takes to go {SHARE:g} R, {SHARE:g} R / sqrt(g (H1 + H2))"
+)
+
+
+def peak(point: Point, time: np.ndarray, eta: np.ndarray) -> tuple[float, float]:
+    """Return the largest running mean of the surface at the gauge, by size, and when.
+
+    The head of a wave is a jump that each finer grid makes higher and narrower; what passes in a stated time converges.
+
+    Parameters
+    ----------
+    point
+        The run's, which sets the time.
+    time, eta
+        Times (samples) in s and displacement (samples) in m at them, thought linear between.
+
+    Returns
+    -------
+    tuple of float
+        The size (m) of the mean and the middle (s) of its time; NaN without water, or of a shorter run.
+    """
+    span = SHARE * point.radius / point.wave_speed
+    if not np.isfinite(eta).all() or time[-1] - time[0] < span:
+        return math.nan, math.nan
+    volume = np.append(0.0, np.cumsum((eta[1:] + eta[:-1]) / 2 * np.diff(time)))
+    starts = time[time <= time[-1] - span]
+    until = np.interp(starts + span, time, volume)
+    mean = np.abs(until - volume[: len(starts)]) / span
+    place = int(mean.argmax())
+    return float(mean[place]), float(starts[place] + span / 2)
