@@ -62,12 +62,12 @@ class Kind(NamedTuple):
         Returns
         -------
         DataFrame
-            A row for each time: ``time`` (s; NaN for a final length), ``value`` and ``band`` (SI units; a band is NaN
-            where three grids give no order).
+            A row for each time: ``time`` (s; NaN for a final length), ``value`` and ``band`` (SI units), ``ordered`` (1
+            where three grids give an order, else 0).
         """
         rows = self.bands[(self.bands["id"] == run) & (self.bands["quantity"] == quantity)]
-        band = rows["band"].where(rows["convergence"] == convergence.CONVERGING)
-        return rows.assign(band=band)[["time", "value", "band"]].astype(float)
+        ordered = rows["convergence"] == convergence.CONVERGING
+        return rows.assign(ordered=ordered)[["time", "value", "band", "ordered"]].astype(float)
 
 
 def of(results: "Results", **options: Any) -> list[Kind]:
@@ -100,7 +100,7 @@ def about(kinds: list[Kind]) -> str:
 def symbols(
     ax: Axes, kind: Kind, rows: pd.DataFrame, look: _style.Look, x: Any, unit: float, size: float = 4.0
 ) -> None:
-    """Draw values as symbols: filled with their bands as bars, open where three grids give no order.
+    """Draw values as symbols, with their bands as bars; open where three grids give no order.
 
     Parameters
     ----------
@@ -120,20 +120,14 @@ def symbols(
         Size of the symbols (point).
     """
     size = 0.8 * size if kind.name == "paper" else size
-    known = rows["band"].notna().to_numpy()
     values, bands = rows["value"].to_numpy() * unit, rows["band"].to_numpy() * unit
     symbol = {"marker": look["marker"], "color": look["color"], "linestyle": "", "markersize": size}
-    x = np.asarray(x, float)
-    ax.errorbar(
-        x[known],
-        values[known],
-        bands[known],
-        **symbol,
-        markeredgewidth=0,
-        elinewidth=0.6 if kind.name == "paper" else 0.9,
-        zorder=3,
-    )
-    ax.plot(x[~known], values[~known], **symbol, markerfacecolor="white", markeredgewidth=0.7, zorder=3.2)
+    ordered = rows["ordered"].to_numpy() == 1
+    filled = {"markeredgewidth": 0, "zorder": 3}
+    hollow = {"markerfacecolor": "white", "markeredgewidth": 0.7, "zorder": 3.2}
+    for some, face in ((ordered, filled), (~ordered, hollow)):
+        width = 0.6 if kind.name == "paper" else 0.9
+        ax.errorbar(np.asarray(x, float)[some], values[some], bands[some], **symbol, **face, elinewidth=width)
 
 
 def entries(kinds: list[Kind], symbols: bool = True) -> list[_style.Entry]:
@@ -175,8 +169,8 @@ def note(kinds: list[Kind], quantities: tuple[str, ...], what: str) -> list[str]
         name = f"{TITLES[kind.name]} " if kind.name else ""
         counts.append(f"{name}{lost} of {len(rows)}")
     return [
-        "Bars: the band of discretisation error that three grids leave (bands.csv), where it exceeds the symbol; open "
-        f"symbols: three grids give no order, without bar: {', '.join(counts)} {what}."
+        "Bars: the band of discretisation error (bands.csv), where it exceeds the symbol; open symbols: three grids "
+        f"give no order: {', '.join(counts)} {what}."
     ]
 
 

@@ -92,15 +92,10 @@ def _spread(
     ax.plot(time * units.time.factor, spread, **kind.line(look), **options)
     if kind.banded:
         values = pd.concat([kind.banded_values(name, _fronts.QUANTITY) for name in rows["id"]])
-        ends = [
-            {
-                "time": when,
-                "value": np.ptp(group["value"]),
-                "band": group["band"]
-                .iloc[[group["value"].argmin(), group["value"].argmax()]]
-                .sum(skipna=False),
-            }
-            for when, group in values.groupby("time")
-        ]
+        ends = []
+        for when, group in values.groupby("time"):
+            two = group.iloc[[group["value"].argmin(), group["value"].argmax()]]
+            parts = {"band": two["band"].sum(skipna=False), "ordered": two["ordered"].min()}
+            ends.append({"time": when, "value": np.ptp(group["value"]), **parts})
         ends = pd.DataFrame(ends)
         _kinds.symbols(ax, kind, ends, look, ends["time"] * units.time.factor, units.value.factor)

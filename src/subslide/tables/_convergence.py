@@ -31,7 +31,7 @@ FORMAL_ORDER = 1.0
 order at what comes of one. Measured at second order (a_H 1 and 10; r 0, 0.4 and 0.8; 234 values on 200 to 1600 cells):
 the band holds the limit from 6400 cells in 94 %; Roache's index with an order up to that of the scheme did in 46 %."""
 
-CONVERGING, NOT_CONVERGED = "converging", "not converged"
+CONVERGING, NOT_CONVERGED, NO_LIMIT = "converging", "not converged", "no limit"
 
 
 class Estimate(NamedTuple):
@@ -48,6 +48,7 @@ class Estimate(NamedTuple):
 
 
 UNKNOWN = Estimate(math.nan, math.nan, math.nan, NOT_CONVERGED)
+LIMITLESS = Estimate(math.nan, math.nan, math.nan, NO_LIMIT)
 
 
 def estimate(

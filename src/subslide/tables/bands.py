@@ -13,6 +13,7 @@ from subslide.keys.schema import ConfigError
 from subslide.naming import FINISHED, FRONT_LABELS
 from subslide.points import Point
 from subslide.study.config import COARSENING, Study
+from subslide.tables import _calibration as calibration
 from subslide.tables import _convergence as convergence
 from subslide.tables import _gauge as gauge
 from subslide.tables._convergence import FORMAL_ORDER
@@ -31,13 +32,20 @@ COLUMNS = {
     "value_4": ("m", "value of its companion with cells/4"),
     "order": ("", "observed order of convergence p; empty where it cannot be told"),
     "limit": ("m", "Richardson's estimate of the value on ever finer grids; empty unless converging"),
-    "band": ("m", "half-width of the band of discretisation error about `value`; wide where not converged"),
-    "convergence": ("", f"`{convergence.CONVERGING}` or `{convergence.NOT_CONVERGED}`"),
+    "band": ("m", "half-width of the band of discretisation error about `value`; empty without a limit"),
+    "convergence": (
+        "",
+        f"`{convergence.CONVERGING}`, `{convergence.NOT_CONVERGED}` or `{convergence.NO_LIMIT}`: what three grids say",
+    ),
+    "calibrated": ("", "whether the run is like those at which bands were calibrated"),
 }
 WORDS = ("id", "quantity", "convergence")
 WAVES = ("max_abs_eta", "max_abs_eta_outside")
 ONCE = (*(f"L_f_{label}" for label in FRONT_LABELS), *(f"{name}_peak" for name in (*WAVES, "eta_gauge")))
 """Quantities of a run as a whole; the others are taken at the times of its snapshots."""
+
+LIMITLESS = tuple(f"{name}_peak" for name in WAVES)
+"""Quantities without a limit: at the start the surface leaps beside the column, and waves meet on the axis."""
 
 QUANTITIES = {
     **{f"L_f_{t}": f"final length of the deposit ({t[:-2]} % front)" for t in FRONT_LABELS},
@@ -58,21 +66,24 @@ MEASURED = ("time", "x_front", "L_f", *WAVES, "eta_gauge", "snapshot_time", "sta
 def about() -> str:
     """Return what the documentation says of the table: how its estimates are made, and its quantities."""
     quantities = "\n".join(f"- `{name}`: {text}" for name, text in QUANTITIES.items())
-    low, safety = convergence.LOWEST_ORDER, convergence.SAFETY
+    low = convergence.LOWEST_ORDER
     return f"""One row for each run, quantity and time, in studies with `bands: true` only. Each run has two companions,
 equal but for their coarser grids, which have no rows elsewhere. From the values f1 (the run), f2 (cells/2) and f3
-(cells/4) follow the observed order p = log2((f3 - f2)/(f2 - f1)), the limit f1 + (f1 - f2)/(2^p - 1) of Richardson's
-extrapolation, and the band {safety} |f1 - f2|/(2^p - 1): the grid convergence index times the value (Roache 1994;
-Celik et al. 2008). Fronts and waves that come of a jump converge at first order in either scheme; where p > 1, f1 and
-f2 agree by chance, and the band is {safety} |f3 - f2|/2, what the coarser pair leaves at first order. So the band
-estimates, with a factor of safety of {safety}, how far the value lies from that on ever finer grids. It is an
-estimate of the error of discretisation alone (on the paper's columns 94 in 100 bands held the answer of a finer grid),
-and says nothing of the model's own error, its parameters, or the threshold that defines a front.
+(cells/4) follow the observed order p = log2((f3 - f2)/(f2 - f1)) and the limit f1 + (f1 - f2)/(2^p - 1) of Richardson's
+extrapolation.
 
-`{convergence.NOT_CONVERGED}`: the differences change sign, grow, or shrink with an order below {low}, or one of the
-three runs failed. Then there is no limit, and the band is thrice the range of the three values (Eca and Hoekstra 2014),
-or empty if a run failed. Where f1 and f2 agree to round-off the limit is f1 and no order is given. Times are those of
-the run's `snapshot_times` after the start.
+The band is read off at columns whose answer a much finer grid gave ([bands.md](bands.md) has the method, and how many
+of other columns' answers it held): a number of cells for a front, which errs by about as many whatever the grid, and
+for a wave the largest of three parts, of |f1 - f2|, of |f2 - f3| and of the value. A run unlike those columns (another
+scene, solver or friction law, or beyond their range) is not `calibrated`: there the band is no less than Richardson's,
+1.25 |f1 - f2|/(2^p - 1), the grid convergence index times the value (Roache 1994; Celik et al. 2008). Bands estimate
+the error of discretisation alone, and say nothing of the model's own error, its parameters, or the threshold that
+defines a front.
+
+`{convergence.NOT_CONVERGED}`: the differences of three grids change sign, grow, or shrink with an order below {low}, so
+that there is no limit to state, or one of the three runs failed, and there is no band either. Where f1 and f2 agree to
+round-off the limit is f1 and no order is given. `{convergence.NO_LIMIT}`: finer grids give ever larger values, so that
+no number stands for the answer. Times are those of the run's `snapshot_times` after the start.
 
 Quantities:
 
@@ -162,13 +173,25 @@ def rows(point: Point, *grids: Measured) -> Iterator[dict]:
         What was measured of it, and of its companions with cells/2 and cells/4.
     """
     fine = grids[0]
-    depth = (1 + point.a_H) * point.a_2 * point.radius
+    alike = calibration.is_calibrated(point)
     for (quantity, time), value in fine.values.items():
         if fine.finished and math.isnan(value):
             continue
         f1, f2, f3 = (grid.values.get((quantity, time), math.nan) for grid in grids)
-        estimate = convergence.UNKNOWN
-        if all(grid.finished for grid in grids):
-            scale = depth if "eta" in quantity else 0.0
+        estimate = convergence.LIMITLESS if quantity in LIMITLESS else convergence.UNKNOWN
+        if all(grid.finished for grid in grids) and quantity not in LIMITLESS:
+            scale = point.level if "eta" in quantity else 0.0
             estimate = convergence.estimate(f1, f2, f3, FORMAL_ORDER, scale=scale, dtype=point.dtype)
-        yield dict(zip(COLUMNS, (point.id, quantity, time, f1, f2, f3, *estimate), strict=True))
+            band = _band(point, quantity, (f1, f2, f3), fine)
+            estimate = estimate._replace(band=band if alike else max(band, estimate.band))
+        yield dict(zip(COLUMNS, (point.id, quantity, time, f1, f2, f3, *estimate, alike), strict=True))
+
+
+def _band(point: Point, quantity: str, values: tuple[float, float, float], fine: Measured) -> float:
+    """Return the calibrated band (m) of a quantity from its values on three grids, NaN where any has none."""
+    if not all(map(math.isfinite, values)):
+        return math.nan
+    if "eta" in quantity:
+        return calibration.wave(point, *values)
+    label = quantity.rpartition("_")[2]
+    return calibration.front(point, label, values[0], fine.values[f"L_f_{label}", None])

@@ -1,0 +1,89 @@
+"""Bands of discretisation error that were calibrated: on columns whose answer a grid of 6,400 cells gave.
+
+Three grids of a front rarely fall in an order, since it errs by where it stands within a cell; but the error is about
+the same number of cells whatever the column, once cells are small. So the band of a front is a number of cells, read
+off at columns drawn at random, and that of a wave follows from the differences of the three grids. docs/bands.md has
+the columns, and the shares of others, drawn apart, whose answer lay within their bands (benchmarks/bands.py).
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from subslide.naming import FRONT_LABELS
+from subslide.points import Point
+from subslide.study import choice
+
+RANGE = {"a_H": (0.5, 10.0), "a_2": (0.3, 1.5), "r": (0.0, 0.8), "delta": (20.0, 40.0)}
+"""Columns that were drawn."""
+
+ARRIVED = 0.95
+"""Fraction of L_f from which a front errs as one at rest does."""
+
+NODES = (200, 400, 800, 1600)
+"""Cells of the grids that were calibrated; between them bands are linear in the logarithm, beyond them the nearest."""
+
+CELLS: dict[tuple[int, bool], tuple[tuple[float, ...], ...]] = {
+    (2, False): ((3.1, 2.3, 2.2, 1.7), (1.9, 0.8, 0.5, 0.5), (1.1, 0.5, 0.4, 0.3)),
+    (2, True): ((2.4, 1.3, 1.4, 1.6), (1.3, 0.8, 0.85, 0.95), (0.9, 0.5, 0.55, 0.55)),
+    (1, False): ((7.9, 11, 14.5, 18), (4, 5.3, 7, 8.5), (2.2, 3, 3.4, 3.4)),
+    (1, True): ((9.3, 12, 14, 16.5), (4, 5.2, 6, 7.2), (2.6, 3.3, 4, 5)),
+}
+"""Half-width of the bands of fronts, in cells, by order of the scheme and whether the front has arrived: a row for each
+threshold of `FRONT_LABELS`, a number for each node."""
+
+
+class Wave(NamedTuple):
+    """Half-width of the band of a wave, the largest of |f1 - f2|, |f2 - f3| and value times dx/R, each so often."""
+
+    last: float
+    before: float
+    cell: float
+
+
+WAVES = {2: Wave(3.0, 0.75, 3.0), 1: Wave(4.0, 2.0, 10.0)}
+"""By order of the scheme."""
+
+
+SOLVERS = (("ifcph", 2, "exact"), ("ifcph", 1, "hll"))
+"""Solvers that were calibrated, the default and the paper's: scheme, order and flux onto a dry bed."""
+
+
+def is_calibrated(point: Point) -> bool:
+    """Return whether a run is like those that were calibrated; if not, its three grids may widen its bands."""
+    inside = all(low <= getattr(point, key) <= high for key, (low, high) in RANGE.items())
+    solver = (point.scheme, point.order, point.front_flux) in SOLVERS and not choice.of(point).general
+    return inside and solver and point.scene == "cylinder" and NODES[0] <= point.cells <= NODES[-1]
+
+
+def front(point: Point, label: str, value: float, length: float) -> float:
+    """Return the half-width (m) of the band of a front.
+
+    Parameters
+    ----------
+    point
+        The run's.
+    label
+        Label of the front's threshold, see `naming.FRONT_LABELS`.
+    value, length
+        Place (m) of the front, and its last one.
+    """
+    cells = CELLS[point.order, value >= ARRIVED * length][FRONT_LABELS[label]]
+    return float(np.interp(math.log(point.cells), np.log(NODES), cells)) * point.dx
+
+
+def wave(point: Point, f1: float, f2: float, f3: float) -> float:
+    """Return the half-width (m) of the band of a displacement of the surface, from its values on three grids.
+
+    Parameters
+    ----------
+    point
+        The run's.
+    f1, f2, f3
+        Values (m) of the run, and of its companions with cells/2 and cells/4.
+    """
+    factor = WAVES[point.order]
+    return max(
+        factor.last * abs(f1 - f2), factor.before * abs(f2 - f3), factor.cell * abs(f1) * point.scaled_dx
+    )
