@@ -190,9 +190,10 @@ Half-width of waves, the largest of:
 ## Tested
 
 On {count} columns drawn apart from those that gave the numbers ({ranges}).
-The answer is that of the default solver on {truth:,} cells; a value counts where the error of its answer (twice the median difference to {beyond:,} cells, on
-{checked} columns) is below a fifth of its band. Fronts that have stopped count once, as lengths. Of each quantity: the
-share of bands that hold the answer, of how many, and the median of band over error.
+The answer is that of the default solver on {truth:,} cells; a value counts where the error of its answer (twice
+the median difference to {beyond:,} cells, on {checked} columns) is below a fifth of its band. Fronts that have stopped
+count once, as lengths. Of each quantity: the share of bands that hold the answer, of how many, and the median of band
+over error.
 {tested}"""
 
 
