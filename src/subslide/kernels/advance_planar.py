@@ -32,6 +32,7 @@ from subslide.kernels.front import front_position
 from subslide.kernels.hyperbolicity import judged
 from subslide.kernels.jit import driver, inlined, launch
 from subslide.kernels.measures import RowSpan
+from subslide.kernels.measures.surface import between_rows
 from subslide.kernels.planar import (
     cell_speeds,
     fill_ghosts,
@@ -98,6 +99,12 @@ def collect(s, c, watch, thresholds, spans, rows, now, sample):
     measures.start_joining(sample, samples.MEASURED)
     for j in range(GHOSTS, rows.shape[0] - GHOSTS):
         measures.join(sample, samples.MEASURED, rows[j], MEASURED)
+    if watch.split:
+        largest = float(between_rows(c.eta, watch, watch.top))
+        if watch.bottom < above:
+            largest = max(largest, float(between_rows(c.eta, watch, watch.bottom)))
+        sample[samples.ETA] = max(sample[samples.ETA], largest)
+        sample[samples.ETA_OUTSIDE] = max(sample[samples.ETA_OUTSIDE], largest)
 
 
 @inlined

@@ -1,5 +1,6 @@
 """The plane: whole, or the quarter x, y > 0 with walls on the axes for scenes with two mirror symmetries."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -41,7 +42,7 @@ class Plane(Model):
     level
         The undisturbed surface, scaled.
     watched
-        Half-width in cells of the region where the surface is watched.
+        Half-width in cells of the region where the surface is watched, a whole number or one and a half.
     """
 
     dimensions = 2
@@ -56,7 +57,7 @@ class Plane(Model):
         *,
         walls: tuple[int, int, int, int],
         level: float,
-        watched: int,
+        watched: float,
     ):
         """Put the state into padded arrays, and allocate those that a step works on."""
         real = type(settings.r)
@@ -91,8 +92,9 @@ class Plane(Model):
         self.spans = np.zeros((padded[0], SPANS), np.int64)
         self.rows = np.zeros((padded[0], ROW_COLUMNS))
 
-    def _watch(self, padded: tuple[int, int], axis: int, watched: int, still1: float, still2: float) -> Watch:
+    def _watch(self, padded: tuple[int, int], axis: int, watched: float, still1: float, still2: float) -> Watch:
         """Return the `Watch` of the loop. axis: first padded column, and row, beyond the axis."""
+        cells = math.ceil(watched)
         grains = float(np.sum(self.mesh.weight * self.cells.h2, dtype=np.float64))
         return Watch(
             level=self.level,
@@ -100,10 +102,13 @@ class Plane(Model):
             margin=64.0 * float(np.finfo(type(self.level)).eps),
             still1=still1,
             still2=still2,
-            start=max(GHOSTS, axis - watched),
-            stop=min(padded[1] - GHOSTS, axis + watched),
-            bottom=max(GHOSTS, axis - watched),
-            top=min(padded[0] - GHOSTS, axis + watched),
+            start=max(GHOSTS, axis - cells),
+            stop=min(padded[1] - GHOSTS, axis + cells),
+            bottom=max(GHOSTS, axis - cells),
+            top=min(padded[0] - GHOSTS, axis + cells),
+            split=int(watched == cells),
+            rim_left=0,
+            rim_right=0,
             beside=axis,
             beyond=0,
             below_axis=axis if self.copies == 4 else axis - 1,
@@ -164,7 +169,7 @@ def mesh_of(columns: int, dx: float, real: type[float]) -> Mesh:
     weight[GHOSTS:-GHOSTS] = dx * dx
     total = np.concatenate([[0.0], np.cumsum(weight, dtype=np.float64)])
     nothing = np.zeros(0, real)
-    return Mesh(area=nothing, inverse_volume=nothing, source=nothing, weight=weight, total=total)
+    return Mesh(area=nothing, inverse_volume=nothing, source=nothing, weight=weight, total=total, size=float(total[-1]))
 
 
 def columns_within_radius(

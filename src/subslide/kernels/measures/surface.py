@@ -14,9 +14,47 @@ def measure(s, c, mesh, watch, span):
     """Return the largest displacement of the surface in a row, and that beyond R."""
     before = largest_displacement(c.eta, watch.level, span.start, span.inside_start)
     beyond = largest_displacement(c.eta, watch.level, span.inside_stop, span.stop)
-    outside = float(max(before, beyond))
+    outside = float(max(max(before, beyond), at_ends(c.eta, watch, span)))
     inside = float(largest_displacement(c.eta, watch.level, span.inside_start, span.inside_stop))
     return max(outside, inside), outside
+
+
+@inlined
+def at_ends(eta, watch, span):
+    """Return |eta - level| at those ends of the watched region that lie between two cells of a row: of their mean."""
+    if watch.split == 0 or span.start >= span.stop:
+        return abs(watch.level - watch.level)
+    half = type(watch.level)(0.5)
+    right = abs(half * (eta[span.stop - 1] + eta[span.stop]) - watch.level)
+    left = abs(half * (eta[span.start - 1] + eta[span.start]) - watch.level)
+    return max(left, right) if span.start < watch.beside else right
+
+
+@maximum
+def largest_between(lower, upper, level, start, stop):
+    """Return max |eta - level| between two rows, of the means of their cells start..stop-1."""
+    half = type(level)(0.5)
+    largest = abs(level - level)
+    first, count = part(start, stop)
+    for k in range(count):
+        i = k + first
+        largest = max(largest, abs(half * (lower[i] + upper[i]) - level))
+    return largest
+
+
+@inlined
+def at_corner(eta, level, j, i):
+    """Return |eta - level| of the mean of the cells (j-1, i-1), (j-1, i), (j, i-1) and (j, i)."""
+    quarter = type(level)(0.25)
+    return abs(quarter * ((eta[j, i] + eta[j - 1, i - 1]) + (eta[j, i - 1] + eta[j - 1, i])) - level)
+
+
+@inlined
+def between_rows(eta, watch, j):
+    """Return max |eta - level| along an end of the watched region between the padded rows j - 1 and j."""
+    start, stop = watch.start, watch.stop
+    largest = max(largest_between(eta[j - 1], eta[j], watch.level, start, stop), at_corner(eta, watch.level, j, stop))
+    return max(largest, at_corner(eta, watch.level, j, start)) if start < watch.beside else largest
 
 
 @maximum
