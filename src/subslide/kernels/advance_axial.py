@@ -20,7 +20,7 @@ from subslide.kernels.front import front_position
 from subslide.kernels.hyperbolicity import judged
 from subslide.kernels.jit import inlined, launch
 from subslide.kernels.measures import RowSpan
-from subslide.kernels.reduce import extremes
+from subslide.kernels.reduce import extremes, weighted_sum
 from subslide.kernels.row import edges, grain_edges, water_edges
 
 
@@ -44,6 +44,14 @@ def rim_depth(h2, watch):
     left = max(h2[watch.rim_left], h2[watch.rim_left + 1]) if watch.rim_left else 0.0
     right = max(h2[watch.rim_right], h2[watch.rim_right + 1]) if watch.rim_right else 0.0
     return max(left, right)
+
+
+@inlined
+def grains_beyond(h2, weight, watch, start, stop):
+    """Return the volume of grains beyond where a front leaves, of the columns start..stop-1 that have any."""
+    left = weighted_sum(h2, weight, start, min(stop, watch.rim_left)) if watch.rim_left else 0.0
+    right = weighted_sum(h2, weight, max(start, watch.rim_right + 2), stop) if watch.rim_right else 0.0
+    return left + right
 
 
 @inlined
@@ -121,7 +129,8 @@ def advance(s, c, left, right, fx, terms, mesh, walls, watch, thresholds, track)
         sample(s, c, mesh, watch, thresholds, low, high, wet, now, row)
         shallowest, square2, pace = extremes(c.h1, c.h2, c.square2, c.pace, low, high)
         n += 1
-        at_edge = rim_depth(c.h2, watch) >= thresholds[0] or row[samples.GRAINS] < watch.least_grains
+        grains = row[samples.GRAINS] - grains_beyond(c.h2, mesh.weight, watch, wet[0], wet[1])
+        at_edge = rim_depth(c.h2, watch) >= thresholds[0] or grains < watch.least_grains
         full = n == track.samples.shape[0]
         code = k.outcome(clock, samples.is_finite(row), shallowest, square2, at_edge, full)
         code = judged(s, code, row[samples.COMPLEX])

@@ -68,6 +68,7 @@ class Axial(Model):
         self.dimensions = 2 if radial else 1
         self.walls = (int(walls[0]), int(walls[1]))
         self.watched = watched
+        self.between = watched == round(watched) and PAPER not in walls  # the paper's box is told as it was
         first = round(grid.edges[0] / grid.dx)
         last = first + len(grid.centres)
         reach = math.ceil(watched) if OPEN in self.walls else last - first
@@ -110,7 +111,7 @@ class Axial(Model):
             stop=stop,
             bottom=0,
             top=0,
-            split=int(self.watched == round(self.watched)),
+            split=int(self.between),
             rim_left=self._rim(0, beside),
             rim_right=self._rim(1, beside),
             beside=beside,

@@ -19,6 +19,7 @@ from subslide.kernels.arrays import (
     Watch,
     allocate,
 )
+from subslide.kernels.boundary import PAPER
 from subslide.models.limits import LOST_GRAINS
 from subslide.models.model import Model
 from subslide.scenes import Grid
@@ -106,7 +107,7 @@ class Plane(Model):
             stop=min(padded[1] - GHOSTS, axis + cells),
             bottom=max(GHOSTS, axis - cells),
             top=min(padded[0] - GHOSTS, axis + cells),
-            split=int(watched == cells),
+            split=int(watched == cells and PAPER not in self.walls),
             rim_left=0,
             rim_right=0,
             beside=axis,
