@@ -36,7 +36,7 @@ def buoyant(runs: pd.DataFrame) -> tuple[pd.DataFrame, list[str]]:
 def reflected(where: str, runs: pd.DataFrame) -> list[str]:
     """Return the note on what is marked, in words, as waves are at the open edge of the box of any of the runs."""
     text = "waves from the grains have been at the open edge of the box; what comes back from it has a part"
-    return [f"{where}: {text}."] if runs["wave_free_until"].notna().any() else []
+    return [f"{where}: {text}."] if np.isfinite(runs["wave_free_until"]).any() else []
 
 
 def convergence(

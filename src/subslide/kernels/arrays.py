@@ -166,7 +166,9 @@ class Watch(NamedTuple):
     bottom: int
     top: int
     split: int  # 1 if the ends of that region lie between two cells, 0 if on the centres of its outermost
-    rim_left: int  # on a line or radius: first of the two columns where a front leaves on that side, 0 if nowhere
+    rim_left: (
+        int  # on a line or radius: first of the two columns where a front leaves on that side, 0 if nowhere
+    )
     rim_right: int
     beside: int  # first column beyond the axis
     beyond: int  # on a line or radius: first column beyond R

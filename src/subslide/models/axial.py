@@ -79,7 +79,7 @@ class Axial(Model):
         self.watch = self._watch((1 - LOST_GRAINS) * grains, state[0][-1], state[2][-1])
 
     def _lay(self, state: Sequence[np.ndarray], grid: Grid) -> None:
-        """Allocate arrays for a state on a grid."""
+        """Put a state on a grid into new arrays."""
         real = type(self.settings.r)
         padded = len(grid.centres) + 2 * GHOSTS
         self.grid, self.x = grid, grid.centres
@@ -132,7 +132,7 @@ class Axial(Model):
         return {OPEN: inside, PAPER: last if side else first}.get(self.walls[side], 0)
 
     def make_room(self, now: float) -> None:
-        """Lengthen the sea at its open ends to twice the cells, or leave them an end that lets waves out.
+        """Give the sea as many still cells more at each open end, or make that an end like the paper's.
 
         The latter where the last cell is not still water at rest, or beyond MOST_CELLS; waves are free until then.
 
@@ -143,23 +143,22 @@ class Axial(Model):
         """
         state = [getattr(self.cells, name)[GHOSTS:-GHOSTS] for name in self.variables]
         still = (self.watch.still1, 0, self.watch.still2, 0)
-        few = 2 * len(self.x) <= MOST_CELLS
-        longer = tuple(
-            wall == OPEN and few and all(values[end] == rest for values, rest in zip(state, still, strict=True))
-            for wall, end in zip(self.walls, (0, -1), strict=True)
-        )
-        if any(wall == OPEN and not more for wall, more in zip(self.walls, longer, strict=True)):
-            self.walls = tuple(
-                PAPER if wall == OPEN and not more else wall
-                for wall, more in zip(self.walls, longer, strict=True)
-            )
-            self.free_until = min(self.free_until, now)
-        added = [len(self.x) * more for more in longer]
+        added, walls = [0, 0], list(self.walls)
+        for side, end in enumerate((0, -1)):
+            if walls[side] == OPEN:
+                rests = all(values[end] == rest for values, rest in zip(state, still, strict=True))
+                if rests and 2 * len(self.x) <= MOST_CELLS:
+                    added[side] = len(self.x)
+                else:
+                    walls[side] = PAPER
+                    self.free_until = min(self.free_until, now)
+        self.walls = walls[0], walls[1]
         if any(added):
             first = round(self.grid.edges[0] / self.grid.dx)
             edges = np.arange(first - added[0], first + len(self.x) + added[1] + 1) * self.grid.dx
-            padded = [np.pad(values, added, mode="edge") for values in state]
-            self._lay(padded, self.grid._replace(edges=edges))
+            self._lay(
+                [np.pad(values, added, mode="edge") for values in state], self.grid._replace(edges=edges)
+            )
         self.watch = self._watch(self.watch.least_grains, self.watch.still1, self.watch.still2)
 
     def advance(self, thresholds: tuple[float, ...], track: Track) -> None:

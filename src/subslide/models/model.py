@@ -46,7 +46,7 @@ class Model(ABC):
     free_until: float = math.inf
 
     def make_room(self, now: float) -> None:  # noqa: B027
-        """Lengthen the arrays of an open sea, which has come to their end at the scaled time `now`."""
+        """Give an open sea, which has come to the end of its arrays at the scaled time `now`, longer ones."""
 
     @abstractmethod
     def advance(self, thresholds: tuple[float, ...], track: Track) -> None:

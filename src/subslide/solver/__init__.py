@@ -61,6 +61,11 @@ def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | 
     check_point(point)
     start_threads(threads)
     box = point.half_cells
+    if (
+        choice.at_sea(point) and choice.of(point).model != "one-layer"
+    ):  # room from the start costs less than more later
+        last = max(point.profile_times, default=0.0) if point.t_end is None else point.t_end
+        box = math.ceil(min(max(box, point.wave_reach(last) / point.scaled_dx), LARGEST_BOX * box))
     while True:
         run = attempt(point, box, progress)
         grown = math.ceil(box * GROWTH)
@@ -107,7 +112,9 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
         wall += seconds
         reached = clock[k.NOW] >= clock[k.STOP]
         if reached and stop in times:
-            snapshots.append(Snapshot(stop, model.x, model.profile(), model.fields() if point.fields else None))
+            snapshots.append(
+                Snapshot(stop, model.x, model.profile(), model.fields() if point.fields else None)
+            )
         if outcome != k.REACHED:
             break
     if not (reached and stop in times):  # else the end has its snapshot

@@ -165,7 +165,9 @@ def shared(model: Model, snapshots: list[Snapshot]) -> tuple[np.ndarray, list[di
     for snapshot in snapshots:
         before = int(np.searchsorted(x, snapshot.x[0]))
         ends = before, len(x) - before - len(snapshot.x)
-        profiles.append({name: np.pad(values, ends, mode="edge") for name, values in snapshot.profile.items()})
+        profiles.append(
+            {name: np.pad(values, ends, mode="edge") for name, values in snapshot.profile.items()}
+        )
         kept |= profiles[-1]["h2"] > model.settings.dry_depth
     first, last = np.flatnonzero(kept)[[0, -1]]
     part = slice(first, last + 1)

@@ -42,21 +42,6 @@ def largest_between(lower, upper, level, start, stop):
     return largest
 
 
-@inlined
-def at_corner(eta, level, j, i):
-    """Return |eta - level| of the mean of the cells (j-1, i-1), (j-1, i), (j, i-1) and (j, i)."""
-    quarter = type(level)(0.25)
-    return abs(quarter * ((eta[j, i] + eta[j - 1, i - 1]) + (eta[j, i - 1] + eta[j - 1, i])) - level)
-
-
-@inlined
-def between_rows(eta, watch, j):
-    """Return max |eta - level| along an end of the watched region between the padded rows j - 1 and j."""
-    start, stop = watch.start, watch.stop
-    largest = max(largest_between(eta[j - 1], eta[j], watch.level, start, stop), at_corner(eta, watch.level, j, stop))
-    return max(largest, at_corner(eta, watch.level, j, start)) if start < watch.beside else largest
-
-
 @maximum
 def largest_displacement(eta, level, start, stop):
     """Return max |eta - level| over a row's cells start..stop-1."""
