@@ -87,7 +87,7 @@ def settings(order):
     from subslide.models.build import build
     from subslide.points import Point
 
-    found = build(Point(model="radial", order=order), 100, 100, 1e-6).settings
+    found = build(Point(model="radial", order=order), 100, 1e-6).settings
     return type(found)(*(Number(value) if isinstance(value, float) else value for value in found))
 
 

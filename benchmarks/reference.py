@@ -105,7 +105,7 @@ def fluxes_like(edges):
 
 def settings_of(edges):
     """Return the scaled numbers of the paper's column in the precision of the edges."""
-    return build(Point(model="radial", dtype=edges.stuck.dtype.name), 100, 100, DRY_DEPTH).settings
+    return build(Point(model="radial", dtype=edges.stuck.dtype.name), 100, DRY_DEPTH).settings
 
 
 def c_reference(edges, out):

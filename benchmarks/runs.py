@@ -165,7 +165,7 @@ def memory(dtypes):
     for model, dtype in itertools.product(EDGES_PER_CELL, dtypes):
         point = point_of(model, 2, dtype)
         half = -(-point.cells // 2)
-        held = build(point, half, half, DRY_DEPTH)
+        held = build(point, half, DRY_DEPTH)
         cells = len(held.x) ** held.dimensions if model in ("plane", "quarter") else len(held.x)
         total = sum(array.nbytes for array in arrays_in(vars(held)))
         rows += rows_of(

@@ -40,11 +40,11 @@ SERIES = {
         "max|η|",
         STEP,
         "m",
-        "largest displacement of the water surface in the initial box; where waves meet on the axis it has no limit as"
-        " cells shrink",
+        "largest displacement of the water surface within 4.2553 R of the axis along x and y (the paper's box, on every"
+        " grid); where waves meet on the axis it has no limit as cells shrink",
     ),
     "max_abs_eta_outside": Name(
-        "max|η| (x > R)", STEP, "m", "largest displacement of the water surface beyond R in the initial box"
+        "max|η| (x > R)", STEP, "m", "largest displacement of the water surface there and beyond R"
     ),
     "eta_gauge": Name(
         "η(2 R)",
@@ -52,10 +52,18 @@ SERIES = {
         "m",
         f"displacement of the water surface at a gauge, {GAUGE:g} R from the axis along x",
     ),
-    "sediment_volume": Name("V2", STEP, "m3", "volume of grains in the box"),
-    "water_volume": Name("V1", STEP, "m3", "volume of water in the box"),
+    "sediment_volume": Name("V2", STEP, "m3", "volume of grains in the box, and beyond it on an open sea"),
+    "water_volume": Name(
+        "V1",
+        STEP,
+        "m3",
+        "volume of water in the box, and on an open sea what is beyond it less the water that is there at rest",
+    ),
     "energy": Name(
-        "E", STEP, "m5 s-2", "mechanical energy in the box over the density of grains, relative to the bed"
+        "E",
+        STEP,
+        "m5 s-2",
+        "mechanical energy over the density of grains, relative to the bed, of what the volumes count",
     ),
     "nonhyperbolic_cells": Name("n_c", STEP, "1", "cells where the two layers' wave speeds are complex"),
     "hyperbolic_margin": Name(
@@ -97,13 +105,16 @@ SCALARS = {
         "s",
         "time since which no grain has moved (late waves may nudge a few; has no limit as cells shrink)",
     ),
-    "box_half_width": Name("L", ("run",), "m", "half-width of the computational box"),
+    "box_half_width": Name(
+        "L", ("run",), "m", "half-width of the computational box, and of the paper's on an open sea"
+    ),
     "wave_free_until": Name(
         "t_w",
         ("run",),
         "s",
-        "time when the first wave from the grains can be at the open edge of the box; after it what comes back from the"
-        " edge has a part in the water; missing without an open edge or without water",
+        "time when the first wave from the grains can be at an edge of the box that lets it out; then what comes back"
+        " has a part in the water, in the plane with `boundary: open` some 1 % of the waves; infinite on an open sea"
+        " (a radius or line), which has no edge; missing behind walls, in periodic boxes and without water",
     ),
     "steps": Name("n", ("run",), "1", "number of time steps"),
     "wall_seconds": Name("", ("run",), "s", "wall time of the time loop alone"),

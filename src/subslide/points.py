@@ -134,6 +134,10 @@ class Point(Values):
         """Speed (m/s) sqrt(g (H1 + H2)) of the fastest wave at rest."""
         return math.sqrt(self.g * self.a_2 * self.radius * (1 + self.a_H))
 
+    def wave_reach(self, time: float) -> float:
+        """Return how far from the axis, over R, the first wave from R is at a time (s)."""
+        return 1.0 + self.wave_speed * time / self.radius
+
     @property
     def friction_number(self) -> float:
         """Number m = tan(delta)/a_2 by which Coulomb friction enters the scaled equations: scaled deceleration.

@@ -16,7 +16,7 @@ EDGES = np.linspace(-1.0, 1.0, 21)
 def slab(stop, cfl=0.9, h2=1.0, m=MU, **law):
     """Speed of a uniform slab at time `stop`, released at U0 under still water; every cell has it."""
     options = {"r": R, "m": m, "cfl": cfl, "order": 2, **law}
-    model = axial(EDGES, 1.0, 0.0, h2, U0, level=1.0 + h2, walls=(False, False), **options)
+    model = axial(EDGES, 1.0, 0.0, h2, U0, level=1.0 + h2, walls=(3, 3), **options)
     advance(model, stop=stop, thresholds=(9.0, 9.0, 9.0))  # grains may leave through the open ends
     u2 = inner(model, "u2")
     assert np.ptp(u2) == 0

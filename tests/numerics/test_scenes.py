@@ -166,7 +166,7 @@ def test_piles_rest_unless_they_are_too_steep(case, order):
 @pytest.mark.parametrize(("law", "delta"), [("coulomb", 0), ("coulomb", 20), ("voellmy", 20), ("voellmy", 0)])
 def test_a_slide_slows_as_its_friction_law_says(law, delta):
     p = point("slide", friction=law, delta=delta, xi=50, cells=400)
-    model = build(p, 200, 200, 1e-6)
+    model = build(p, 200, 1e-6)
     advance(model, stop=0.5)
     time = 0.5 * math.sqrt(p.radius / (p.g * p.a_2))
     speed = float(slide.speed_of(p, time)) / math.sqrt(p.g * p.a_2 * p.radius)

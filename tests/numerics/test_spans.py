@@ -28,7 +28,7 @@ SPEEDS = st.floats(-2.0, 2.0)
 def advanced(model, order, dtype, *, everywhere=False, **values):
     """Return a model of a column after 40 steps; `everywhere`: nothing counts as still."""
     point = Point(model=model, order=order, dtype=dtype, cells=100, **values)
-    found = build(point, 50, 50, DRY_DEPTH)
+    found = build(point, 50, DRY_DEPTH)
     if everywhere:
         real = type(found.settings.r)
         found.watch = found.watch._replace(still1=real(-1), still2=real(-1))

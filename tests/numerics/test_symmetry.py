@@ -138,7 +138,7 @@ def test_tangential_velocity_is_carried_by_the_mass_that_crosses_an_edge(order):
             v2=2 * v,
             m=0.0,
             order=order,
-            walls=(False,) * 4,
+            walls=(3,) * 4,
         )
         _, outcome = advance(model, stop=0.5, thresholds=DEEP)
         assert outcome == k.REACHED

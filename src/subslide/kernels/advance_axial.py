@@ -15,13 +15,13 @@ from subslide.kernels.axial import (
     water_cell_speeds,
 )
 from subslide.kernels.axial_faces import faces, water_faces
-from subslide.kernels.boundary import PERIODIC, lets_out
+from subslide.kernels.boundary import OPEN, PERIODIC
 from subslide.kernels.front import front_position
 from subslide.kernels.gauge import displacement
 from subslide.kernels.hyperbolicity import judged
 from subslide.kernels.jit import inlined, launch
 from subslide.kernels.measures import RowSpan
-from subslide.kernels.reduce import extremes
+from subslide.kernels.reduce import extremes, weighted_sum
 from subslide.kernels.row import edges, grain_edges, water_edges
 
 
@@ -41,12 +41,19 @@ def sample(s, c, mesh, watch, thresholds, low, high, wet, now, row):
 
 
 @inlined
-def rim_depth(h2, walls):
-    """Return the largest depth of grains in the last two cells before an open end."""
-    n = h2.shape[0]
-    left = max(h2[GHOSTS], h2[GHOSTS + 1]) if lets_out(walls[0]) else 0.0
-    right = max(h2[n - GHOSTS - 1], h2[n - GHOSTS - 2]) if lets_out(walls[1]) else 0.0
+def rim_depth(h2, watch):
+    """Return the largest depth of grains where a front leaves."""
+    left = max(h2[watch.rim_left], h2[watch.rim_left + 1]) if watch.rim_left else 0.0
+    right = max(h2[watch.rim_right], h2[watch.rim_right + 1]) if watch.rim_right else 0.0
     return max(left, right)
+
+
+@inlined
+def grains_beyond(h2, weight, watch, start, stop):
+    """Return the volume of grains beyond where a front leaves, of the columns start..stop-1 that have any."""
+    left = weighted_sum(h2, weight, start, min(stop, watch.rim_left)) if watch.rim_left else 0.0
+    right = weighted_sum(h2, weight, max(start, watch.rim_right + 2), stop) if watch.rim_right else 0.0
+    return left + right
 
 
 @inlined
@@ -124,10 +131,13 @@ def advance(s, c, left, right, fx, terms, mesh, walls, watch, thresholds, track)
         sample(s, c, mesh, watch, thresholds, low, high, wet, now, row)
         shallowest, square2, pace = extremes(c.h1, c.h2, c.square2, c.pace, low, high)
         n += 1
-        at_edge = rim_depth(c.h2, walls) >= thresholds[0] or row[samples.GRAINS] < watch.least_grains
+        grains = row[samples.GRAINS] - grains_beyond(c.h2, mesh.weight, watch, wet[0], wet[1])
+        at_edge = rim_depth(c.h2, watch) >= thresholds[0] or grains < watch.least_grains
         full = n == track.samples.shape[0]
         code = k.outcome(clock, samples.is_finite(row), shallowest, square2, at_edge, full)
         code = judged(s, code, row[samples.COMPLEX])
+        if code == k.RUNNING and ((walls[0] == OPEN and first == 0) or (walls[1] == OPEN and last == cells)):
+            code = k.NO_ROOM  # on the open sea no wave gets to an end
         if code == k.RUNNING:
             pace = max(pace, max(c.pace[0], c.pace[cells - 1]))
             stable = k.stable_step(s, pace, clock[k.STOP] - now)

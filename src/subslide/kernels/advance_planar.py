@@ -33,6 +33,7 @@ from subslide.kernels.gauge import displacement
 from subslide.kernels.hyperbolicity import judged
 from subslide.kernels.jit import driver, inlined, launch
 from subslide.kernels.measures import RowSpan
+from subslide.kernels.measures.surface import largest_between
 from subslide.kernels.planar import (
     cell_speeds,
     fill_ghosts,
@@ -42,6 +43,7 @@ from subslide.kernels.planar import (
     water_cell_speeds,
 )
 from subslide.kernels.planar_faces import faces
+from subslide.kernels.radiation import decay, radiate
 from subslide.kernels.reduce import extremes, largest, smallest
 from subslide.kernels.row import edges, tangential, water_edges, water_tangential
 
@@ -100,6 +102,14 @@ def collect(s, c, watch, thresholds, spans, rows, now, sample):
     measures.start_joining(sample, samples.MEASURED)
     for j in range(GHOSTS, rows.shape[0] - GHOSTS):
         measures.join(sample, samples.MEASURED, rows[j], MEASURED)
+    if watch.split:
+        columns = watch.level, watch.start, watch.stop
+        largest = float(largest_between(c.eta[watch.top - 1], c.eta[watch.top], *columns))
+        if watch.bottom < above:
+            lower = largest_between(c.eta[watch.bottom - 1], c.eta[watch.bottom], *columns)
+            largest = max(largest, float(lower))
+        sample[samples.ETA] = max(sample[samples.ETA], largest)
+        sample[samples.ETA_OUTSIDE] = max(sample[samples.ETA_OUTSIDE], largest)
 
 
 @inlined
@@ -212,6 +222,7 @@ def advance_planar(
     walls,
     watch,
     inside,
+    rim,
     spans,
     rows,
     thresholds,
@@ -221,7 +232,7 @@ def advance_planar(
 
     One sample is written before each step and one at the end, from samples[counters[SAMPLES]] on; counters[OUTCOME]
     says why the loop ended. `walls`: what (left, right, bottom, top) are, see `boundary`; `inside` (padded rows, 2):
-    the columns within R; `spans`: see `active`; `rows`: scratch.
+    the columns within R; `rim`: see `radiation`; `spans`: see `active`; `rows`: scratch.
     """
     clock, counters = track.clock, track.counters
     n = counters[k.SAMPLES]
@@ -232,6 +243,7 @@ def advance_planar(
     code = k.RUNNING
     while code == k.RUNNING:
         fill_ghosts(c, walls)
+        radiate(c, walls, rim, watch.level)
         survey(s, c, mesh, walls, watch, inside, spans, rows, whole)
         widen(spans, c.h1.shape[1], s.lanes, water_may_be_alone(s), joined)
         whole = False
@@ -239,8 +251,8 @@ def advance_planar(
         sample = track.samples[n]
         collect(s, c, watch, thresholds, spans, rows, now, sample)
         n += 1
-        rim = largest(rows[:, RIM], 0, rows.shape[0])
-        at_edge = rim >= thresholds[0] or sample[samples.GRAINS] < watch.least_grains
+        at_rim = largest(rows[:, RIM], 0, rows.shape[0])
+        at_edge = at_rim >= thresholds[0] or sample[samples.GRAINS] < watch.least_grains
         shallowest = smallest(rows[:, SHALLOWEST], 0, rows.shape[0])
         square2 = largest(rows[:, SQUARE2], 0, rows.shape[0])
         full = n == track.samples.shape[0]
@@ -259,6 +271,7 @@ def advance_planar(
                 join_plane(terms.keep1, walls)
                 join_plane(terms.keep2, walls)
                 update_cells(s, c, fx, fy, terms, spans, dt, ny)
+                decay(c, walls, rim, watch.level, dt)
                 clock[k.NOW] = k.after(now, taken, dt, clock[k.STOP])
     counters[k.SAMPLES] = n
     counters[k.OUTCOME] = code

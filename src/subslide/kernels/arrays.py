@@ -149,7 +149,8 @@ class Mesh(NamedTuple):
     inverse_volume: np.ndarray  # one over the size of each cell (n): 1 / (radius dx), or 1 / dx
     source: np.ndarray  # of each padded cell: -1 / (2 radius) in round scenes, 0 on a line
     weight: np.ndarray  # volume of each padded cell per depth, 0 for ghosts
-    total: np.ndarray  # sums of `weight` from the left, float64
+    total: np.ndarray  # sums of `weight` from the left end of the box, float64
+    size: float  # of that box: volumes and energy are of it, and of what has gone beyond it less still water
 
 
 class Watch(NamedTuple):
@@ -164,6 +165,11 @@ class Watch(NamedTuple):
     stop: int
     bottom: int
     top: int
+    split: int  # 1 if the ends of that region lie between two cells, 0 if on the centres of its outermost
+    rim_left: (
+        int  # on a line or radius: first of the two columns where a front leaves on that side, 0 if nowhere
+    )
+    rim_right: int
     beside: int  # first column beyond the axis
     beyond: int  # on a line or radius: first column beyond R
     below_axis: int  # in the plane: the two rows beside the x axis

@@ -2,7 +2,7 @@
 
 from subslide.kernels.jit import inlined
 
-RUNNING, REACHED, AT_REST, FRONT_AT_EDGE, NOT_FINITE, NEGATIVE, COLLAPSED, FULL, SHEARED = range(9)
+RUNNING, REACHED, AT_REST, FRONT_AT_EDGE, NOT_FINITE, NEGATIVE, COLLAPSED, FULL, SHEARED, NO_ROOM = range(10)
 
 # Indices into the float64 array `clock`.
 NOW, STOP, REST_FROM, REST_SINCE = range(4)

@@ -1,6 +1,6 @@
-"""Largest and smallest of a part of a row."""
+"""Largest, smallest and sum of a part of a row."""
 
-from subslide.kernels.jit import maximum, part
+from subslide.kernels.jit import maximum, part, summed
 
 
 @maximum
@@ -37,3 +37,13 @@ def extremes(h1, h2, square2, pace, start, stop):
         square = max(square, square2[i])
         fastest = max(fastest, pace[i])
     return shallowest, square, fastest
+
+
+@summed
+def weighted_sum(row, weight, start, stop):
+    """Return the sum of the entries start..stop-1, each times its weight."""
+    total = 0.0
+    first, count = part(start, stop)
+    for k in range(count):
+        total += weight[k + first] * row[k + first]
+    return total

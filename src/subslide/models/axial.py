@@ -1,5 +1,6 @@
 """One dimension: a radius (round scenes, `radial`) or a line, with one layer or two."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -17,8 +18,8 @@ from subslide.kernels.arrays import (
     Watch,
     allocate,
 )
-from subslide.kernels.boundary import WALL
-from subslide.models.limits import LOST_GRAINS
+from subslide.kernels.boundary import OPEN, PAPER, WALL
+from subslide.models.limits import LARGEST_BOX, LOST_GRAINS, MOST_CELLS
 from subslide.models.model import Model
 from subslide.scenes import Grid
 
@@ -35,13 +36,14 @@ class Axial(Model):
     state
         (h1, u1, h2, u2), each (n), scaled.
     grid
-        A radius, whose cells are rings about the axis, or a line.
+        A radius, whose cells are rings about the axis, or a line. On the open sea it is lengthened in place by still
+        cells, before what moves comes to its end.
     walls
         What the (left, right) end is, see `kernels.boundary`.
     level
         The undisturbed surface, scaled.
     watched
-        Cells from the axis within which the surface is watched.
+        Cells from the axis within which the surface is watched, a whole number or one and a half.
     """
 
     copies = 1
@@ -56,43 +58,52 @@ class Axial(Model):
         *,
         walls: tuple[int, int],
         level: float,
-        watched: int,
+        watched: float,
     ):
         """Put the state into padded arrays, and allocate those that a step works on."""
-        real = type(settings.r)
         radial = grid.geometry == "radius"
-        n = len(grid.centres)
-        padded = n + 2 * GHOSTS
         self.name = name
         self.settings = settings
-        self.level = real(level)
-        self.x = grid.centres
-        self.half_width = grid.edges[-1]
+        self.level = type(settings.r)(level)
         self.dimensions = 2 if radial else 1
+        self.walls = (int(walls[0]), int(walls[1]))
+        self.watched = watched
+        self.between = watched == round(watched) and PAPER not in walls  # the paper's box is told as it was
+        first = round(grid.edges[0] / grid.dx)
+        last = first + len(grid.centres)
+        reach = math.ceil(watched) if OPEN in self.walls else last - first
+        self.box = max(first, -reach), min(last, reach)
+        self.half_width = grid.edges[self.box[1] - first]
+        self._lay(state, grid)
+        grains = float(np.sum(self.mesh.weight * self.cells.h2, dtype=np.float64))
+        self.watch = self._watch((1 - LOST_GRAINS) * grains, state[0][-1], state[2][-1])
+
+    def _lay(self, state: Sequence[np.ndarray], grid: Grid) -> None:
+        """Put a state on a grid into new arrays."""
+        real = type(self.settings.r)
+        padded = len(grid.centres) + 2 * GHOSTS
+        self.grid, self.x = grid, grid.centres
         self.cells = allocate(Cells, (padded,), real)
         for variable, values in zip(self.variables, state, strict=True):
             getattr(self.cells, variable)[GHOSTS:-GHOSTS] = values
-        if settings.order == 1:
+        if self.settings.order == 1:
             self.left = self.right = Side(*(getattr(self.cells, variable) for variable in Side._fields))
         else:
             self.left = allocate(Side, (padded,), real)
             self.right = allocate(Side, (padded,), real)
-        self.fluxes = allocate(Fluxes, (n + 1,), real)
+        self.fluxes = allocate(Fluxes, (padded - 2 * GHOSTS + 1,), real)
         self.terms = allocate(CellTerms, (padded,), real)
         self.terms.keep1[:] = self.terms.keep2[:] = 1
-        self.mesh = mesh_of(grid, radial, walls[1] == WALL, real)
-        self.walls = (int(walls[0]), int(walls[1]))
-        self.watch = self._watch(grid.dx, watched, state[0][-1], state[2][-1])
+        self.mesh = mesh_of(grid, self.box, self.walls[1] == WALL, real)
 
-    def _watch(self, dx: float, watched: int, still1: float, still2: float) -> Watch:
+    def _watch(self, least_grains: float, still1: float, still2: float) -> Watch:
         """Return the `Watch` of the loop; still water is the state of the last cell at the start."""
-        near = np.flatnonzero(np.abs(self.x) < watched * dx)
+        near = np.flatnonzero(np.abs(self.x) < math.ceil(self.watched) * self.grid.dx)
         columns = (near[0], near[-1] + 1, np.searchsorted(self.x, 0.0), np.searchsorted(self.x, 1.0))
         start, stop, beside, beyond = (int(column) + GHOSTS for column in columns)
-        grains = float(np.sum(self.mesh.weight * self.cells.h2, dtype=np.float64))
         return Watch(
             level=self.level,
-            least_grains=(1 - LOST_GRAINS) * grains,
+            least_grains=least_grains,
             margin=64.0 * float(np.finfo(type(self.level)).eps),
             still1=still1,
             still2=still2,
@@ -100,11 +111,55 @@ class Axial(Model):
             stop=stop,
             bottom=0,
             top=0,
+            split=int(self.between),
+            rim_left=self._rim(0, beside),
+            rim_right=self._rim(1, beside),
             beside=beside,
             beyond=beyond,
             below_axis=0,
             above_axis=0,
         )
+
+    def _rim(self, side: int, beside: int) -> int:
+        """Return the first of the two padded columns where a front leaves on the left (0) or right side; 0 if nowhere.
+
+        On the open sea they end LARGEST_BOX times the paper's box, where the sea has come so far, else the arrays.
+        """
+        first, last = GHOSTS, len(self.x) + GHOSTS - 2
+        place = round(LARGEST_BOX * self.watched)
+        place = beside + place - 2 if side else beside - place
+        inside = place if first <= place <= last else 0
+        return {OPEN: inside, PAPER: last if side else first}.get(self.walls[side], 0)
+
+    def make_room(self, now: float) -> None:
+        """Give the sea as many still cells more at each open end, or make that an end like the paper's.
+
+        The latter where the last cell is not still water at rest, or beyond MOST_CELLS; waves are free until then.
+
+        Parameters
+        ----------
+        now
+            Scaled time.
+        """
+        state = [getattr(self.cells, name)[GHOSTS:-GHOSTS] for name in self.variables]
+        still = (self.watch.still1, 0, self.watch.still2, 0)
+        added, walls = [0, 0], list(self.walls)
+        for side, end in enumerate((0, -1)):
+            if walls[side] == OPEN:
+                rests = all(values[end] == rest for values, rest in zip(state, still, strict=True))
+                if rests and 2 * len(self.x) <= MOST_CELLS:
+                    added[side] = len(self.x)
+                else:
+                    walls[side] = PAPER
+                    self.free_until = min(self.free_until, now)
+        self.walls = walls[0], walls[1]
+        if any(added):
+            first = round(self.grid.edges[0] / self.grid.dx)
+            edges = np.arange(first - added[0], first + len(self.x) + added[1] + 1) * self.grid.dx
+            self._lay(
+                [np.pad(values, added, mode="edge") for values in state], self.grid._replace(edges=edges)
+            )
+        self.watch = self._watch(self.watch.least_grains, self.watch.still1, self.watch.still2)
 
     def advance(self, thresholds: tuple[float, ...], track: Track) -> None:
         """Run the time loop; see `advance_axial`."""
@@ -132,15 +187,15 @@ class Axial(Model):
         }
 
 
-def mesh_of(grid: Grid, radial: bool, right_wall: bool, real: type[float]) -> Mesh:
+def mesh_of(grid: Grid, box: tuple[int, int], right_wall: bool, real: type[float]) -> Mesh:
     """Return the `Mesh` of a line or a radius.
 
     Parameters
     ----------
     grid
-        Cells over R.
-    radial
-        Whether they are rings about the axis.
+        Cells over R; on a radius they are rings about the axis.
+    box
+        Cells from the axis to the (left, right) end of the box of which volumes are, the left ones counted below 0.
     right_wall
         Whether the right end is a wall.
     real
@@ -152,6 +207,7 @@ def mesh_of(grid: Grid, radial: bool, right_wall: bool, real: type[float]) -> Me
         Arrays of that type, the sums float64.
     """
     n, dx, x = len(grid.centres), grid.dx, grid.centres
+    radial = grid.geometry == "radius"
     padded = n + 2 * GHOSTS
     r = x if radial else np.ones(n)
     weight = np.zeros(padded, real)
@@ -161,10 +217,14 @@ def mesh_of(grid: Grid, radial: bool, right_wall: bool, real: type[float]) -> Me
         source[GHOSTS:-GHOSTS] = -0.5 / x
         source[GHOSTS - 1] = -source[GHOSTS]  # mirrored, so that nothing passes a wall
         source[-GHOSTS] = -source[-GHOSTS - 1] if right_wall else -0.5 / (x[-1] + dx)
+    first = GHOSTS + box[0] - round(grid.edges[0] / dx)
+    left = -np.cumsum(weight[:first][::-1], dtype=np.float64)[::-1]
+    total = np.concatenate([left, [0.0], np.cumsum(weight[first:], dtype=np.float64)])
     return Mesh(
         area=(grid.edges if radial else np.ones(n + 1)).astype(real),
         inverse_volume=(1 / (r * dx)).astype(real),
         source=source,
         weight=weight,
-        total=np.concatenate([[0.0], np.cumsum(weight, dtype=np.float64)]),
+        total=total,
+        size=float(total[first + box[1] - box[0]]),
     )

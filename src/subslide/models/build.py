@@ -10,6 +10,7 @@ from subslide.kernels.arrays import GeneralSettings, Settings
 from subslide.keys import names
 from subslide.models.axial import Axial
 from subslide.models.grid import make_grid
+from subslide.models.limits import LARGEST_BOX
 from subslide.models.model import Model
 from subslide.models.plane import Plane
 from subslide.points import Point
@@ -61,15 +62,16 @@ def settings_of(point: Point, layers: int, dx: float, dry_depth: float) -> Setti
     return GeneralSettings(*settings, general=1) if choice.of(point).general else settings
 
 
-def build(point: Point, box: int, watched: int, dry_depth: float) -> Model:
+def build(point: Point, box: int, dry_depth: float) -> Model:
     """Return the model of a point in its initial state.
 
     Parameters
     ----------
     point
         The run; how it is solved follows from it (`study.choice`).
-    box, watched
-        Cells from the axis to the end of the box, and of the region where the surface is watched.
+    box
+        Cells from the axis to the end of the box; on the open sea of a line or radius to that of the first arrays, or
+        of more, where there are grains at their end.
     dry_depth
         Depth over H2 below which a layer counts as dry.
 
@@ -81,8 +83,13 @@ def build(point: Point, box: int, watched: int, dry_depth: float) -> Model:
     real = np.dtype(point.dtype).type
     model, geometry, *_ = choice.of(point)
     dx = point.scaled_dx
+    watched = point.cells / 2
     grid = make_grid(geometry, dx, box)
     state = scenes.load(point.scene).initial(grid, point)
+    while choice.at_sea(point) and state.h2[-1] > 0 and box < LARGEST_BOX * watched:
+        box = min(2 * box, round(LARGEST_BOX * watched))
+        grid = make_grid(geometry, dx, box)
+        state = scenes.load(point.scene).initial(grid, point)
     alone = model == "one-layer"
     settings = settings_of(point, 1 if alone else 2, dx, dry_depth)
     level = real(point.scaled_level)

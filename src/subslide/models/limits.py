@@ -7,6 +7,12 @@ import numpy as np
 from subslide.kernels.arrays import GHOSTS, Cells, Settings
 from subslide.kernels.hyperbolicity import is_complex
 
+LARGEST_BOX = 4.0
+"""Half-width over the paper's at which a front has left the domain: the end of the largest box, a place in the sea."""
+
+MOST_CELLS = 4_000_000
+"""Cells to which the sea on a radius or line is lengthened at most: 3 GB of them."""
+
 LOST_GRAINS = 1e-3
 """Fraction of the grains that may leave the box, thinner than the front, before the run counts as `left_domain`."""
 

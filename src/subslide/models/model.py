@@ -1,5 +1,6 @@
 """What the solver calls of a model, whatever its geometry."""
 
+import math
 from abc import ABC, abstractmethod
 
 import numpy as np
@@ -29,6 +30,8 @@ class Model(ABC):
         2 in the plane and on a radius, 1 on a line.
     copies
         How many times the grid makes up the whole: 4 for a quarter, else 1.
+    free_until
+        Scaled time from which an open sea has an end.
     """
 
     name: str
@@ -40,6 +43,10 @@ class Model(ABC):
     half_width: float
     dimensions: int
     copies: int
+    free_until: float = math.inf
+
+    def make_room(self, now: float) -> None:  # noqa: B027
+        """Give an open sea, which has come to the end of its arrays at the scaled time `now`, longer ones."""
 
     @abstractmethod
     def advance(self, thresholds: tuple[float, ...], track: Track) -> None:

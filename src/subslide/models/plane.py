@@ -1,5 +1,6 @@
 """The plane: whole, or the quarter x, y > 0 with walls on the axes for scenes with two mirror symmetries."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -18,6 +19,8 @@ from subslide.kernels.arrays import (
     Watch,
     allocate,
 )
+from subslide.kernels.boundary import PAPER
+from subslide.kernels.radiation import COSINE, DECAY
 from subslide.models.limits import LOST_GRAINS
 from subslide.models.model import Model
 from subslide.scenes import Grid
@@ -41,7 +44,7 @@ class Plane(Model):
     level
         The undisturbed surface, scaled.
     watched
-        Half-width in cells of the region where the surface is watched.
+        Half-width in cells of the region where the surface is watched, a whole number or one and a half.
     """
 
     dimensions = 2
@@ -56,7 +59,7 @@ class Plane(Model):
         *,
         walls: tuple[int, int, int, int],
         level: float,
-        watched: int,
+        watched: float,
     ):
         """Put the state into padded arrays, and allocate those that a step works on."""
         real = type(settings.r)
@@ -88,11 +91,15 @@ class Plane(Model):
         self.watch = self._watch(padded, first + GHOSTS, watched, state[0][-1, -1], state[3][-1, -1])
         box = (self.watch.start, self.watch.stop)
         self.inside = columns_within_radius(padded[0], first + GHOSTS, first + GHOSTS, grid.dx, box)
+        self.rim = rim_of(padded[0], first + GHOSTS, grid.dx, self.half_width, real)
         self.spans = np.zeros((padded[0], SPANS), np.int64)
         self.rows = np.zeros((padded[0], ROW_COLUMNS))
 
-    def _watch(self, padded: tuple[int, int], axis: int, watched: int, still1: float, still2: float) -> Watch:
+    def _watch(
+        self, padded: tuple[int, int], axis: int, watched: float, still1: float, still2: float
+    ) -> Watch:
         """Return the `Watch` of the loop. axis: first padded column, and row, beyond the axis."""
+        cells = math.ceil(watched)
         grains = float(np.sum(self.mesh.weight * self.cells.h2, dtype=np.float64))
         return Watch(
             level=self.level,
@@ -100,10 +107,13 @@ class Plane(Model):
             margin=64.0 * float(np.finfo(type(self.level)).eps),
             still1=still1,
             still2=still2,
-            start=max(GHOSTS, axis - watched),
-            stop=min(padded[1] - GHOSTS, axis + watched),
-            bottom=max(GHOSTS, axis - watched),
-            top=min(padded[0] - GHOSTS, axis + watched),
+            start=max(GHOSTS, axis - cells),
+            stop=min(padded[1] - GHOSTS, axis + cells),
+            bottom=max(GHOSTS, axis - cells),
+            top=min(padded[0] - GHOSTS, axis + cells),
+            split=int(watched == cells and PAPER not in self.walls),
+            rim_left=0,
+            rim_right=0,
             beside=axis,
             beyond=0,
             below_axis=axis if self.copies == 4 else axis - 1,
@@ -122,6 +132,7 @@ class Plane(Model):
             self.walls,
             self.watch,
             self.inside,
+            self.rim,
             self.spans,
             self.rows,
             thresholds,
@@ -164,7 +175,41 @@ def mesh_of(columns: int, dx: float, real: type[float]) -> Mesh:
     weight[GHOSTS:-GHOSTS] = dx * dx
     total = np.concatenate([[0.0], np.cumsum(weight, dtype=np.float64)])
     nothing = np.zeros(0, real)
-    return Mesh(area=nothing, inverse_volume=nothing, source=nothing, weight=weight, total=total)
+    return Mesh(
+        area=nothing,
+        inverse_volume=nothing,
+        source=nothing,
+        weight=weight,
+        total=total,
+        size=float(total[-1]),
+    )
+
+
+def rim_of(padded: int, axis: int, dx: float, half_width: float, real: type[float]) -> np.ndarray:
+    """Return what `kernels.radiation` keeps of the edges of a square box: K, 0 at the start, and what does not change.
+
+    Parameters
+    ----------
+    padded
+        Rows, and columns, with ghosts.
+    axis
+        First padded row and column beyond the axis.
+    dx, half_width
+        Cell size, and distance of the edges from the axis, over R.
+    real
+        Type of the working precision.
+
+    Returns
+    -------
+    ndarray
+        Numbers (6, padded) of that type.
+    """
+    along = (np.arange(padded) - axis + 0.5) * dx
+    radius = np.hypot(half_width, along)
+    rim = np.zeros((6, padded), real)
+    rim[COSINE] = half_width / radius
+    rim[DECAY] = half_width / (2 * radius**2)
+    return rim
 
 
 def columns_within_radius(

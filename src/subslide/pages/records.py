@@ -18,9 +18,12 @@ Results("results/paper").record("p0123456789ab")  # one run by its id, as an xar
 ```
 
 Lengths are in m from the axis of the scene, times in s from its release. Front and deposit are measured along the x
-axis. In scenes on a line volumes and energy are per metre of width. Each key of a study is a variable too
-([config/README.md](../config/README.md)); attributes hold the configuration, versions and a checksum that readers
-verify. `status` is one of:
+axis. In scenes on a line volumes and energy are per metre of width. With `boundary: open` a radius or line is a sea
+without an edge: it is lengthened before a wave comes to its end, with the bits of one that was long from the start.
+Of it `box_half_width`, volumes, energy and profiles are those of the paper's box, with what has gone beyond it:
+volumes and energy count it less still water, and profiles reach as far as any grains went. Each key of a
+study is a variable too ([config/README.md](../config/README.md)); attributes hold the configuration, versions and a
+checksum that readers verify. `status` is one of:
 
 """
 

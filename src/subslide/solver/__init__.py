@@ -7,11 +7,13 @@ import numpy as np
 
 from subslide.kernels import clock as k
 from subslide.models.build import build
+from subslide.models.limits import LARGEST_BOX
 from subslide.naming import STATUSES
 from subslide.points import Point
 from subslide.solver.answer import Snapshot, describe, make_run, room_for_waves
 from subslide.solver.loop import advance_to, start_threads, warm_up
 from subslide.solver.run import Run
+from subslide.study import choice
 from subslide.study.checking import check_point
 
 DRY_DEPTH = 1e-6
@@ -21,8 +23,7 @@ REST_CAP = 60.0
 """Cap on runs to rest, in R / sqrt(g H2 (1-r)): the paper's slowest column rests at 5, a_2 = 1.5, delta = 20 at 9."""
 
 GROWTH = 1.5
-LARGEST_BOX = 4.0
-"""The box grows by GROWTH while the front reaches its edge, up to LARGEST_BOX times the paper's."""
+"""A box whose edge the front reaches grows by GROWTH, up to LARGEST_BOX times the paper's; the sea has no such edge."""
 
 ENDED = {
     k.AT_REST: "ok",
@@ -60,10 +61,15 @@ def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | 
     check_point(point)
     start_threads(threads)
     box = point.half_cells
+    if (
+        choice.at_sea(point) and choice.of(point).model != "one-layer"
+    ):  # room from the start costs less than more later
+        last = max(point.profile_times, default=0.0) if point.t_end is None else point.t_end
+        box = math.ceil(min(max(box, point.wave_reach(last) / point.scaled_dx), LARGEST_BOX * box))
     while True:
         run = attempt(point, box, progress)
         grown = math.ceil(box * GROWTH)
-        if run.status != "left_domain" or grown > LARGEST_BOX * point.half_cells:
+        if run.status != "left_domain" or choice.at_sea(point) or grown > LARGEST_BOX * point.half_cells:
             return run
         box = grown
 
@@ -89,7 +95,7 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
     cap = REST_CAP / math.sqrt(1.0 - point.r) * time_scale
     end = cap if point.t_end is None else point.t_end
     times = [t for t in point.profile_times if t <= end]
-    model = build(point, box, point.half_cells, DRY_DEPTH)
+    model = build(point, box, DRY_DEPTH)
     room = room_for_waves(point, model)
     clock = np.array([0.0, 0.0, math.inf, -1.0])
     if point.t_end is None:
@@ -106,12 +112,14 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
         wall += seconds
         reached = clock[k.NOW] >= clock[k.STOP]
         if reached and stop in times:
-            snapshots.append(Snapshot(stop, model.profile(), model.fields() if point.fields else None))
+            snapshots.append(
+                Snapshot(stop, model.x, model.profile(), model.fields() if point.fields else None)
+            )
         if outcome != k.REACHED:
             break
     if not (reached and stop in times):  # else the end has its snapshot
         last = float(clock[k.NOW] * time_scale)
-        snapshots.append(Snapshot(last, model.profile(), model.fields() if point.fields else None))
+        snapshots.append(Snapshot(last, model.x, model.profile(), model.fields() if point.fields else None))
     sampled = np.concatenate(chunks)
     status = ENDED.get(outcome, "ok" if point.t_end is not None else "not_at_rest")
     detail = "" if status == "ok" else describe(status, model, sampled, time_scale)

@@ -23,9 +23,10 @@ differed by 0.3 % at most before `wave_free_until`, from 100 cells on and a_H 0.
 
 
 class Snapshot(NamedTuple):
-    """Time (s) of a snapshot, and scaled profiles and, where they are kept, fields of the plane, by name."""
+    """Time (s) of a snapshot, and scaled centres along x, profiles there and, where they are kept, fields, by name."""
 
     time: float
+    x: np.ndarray
     profile: dict[str, np.ndarray]
     fields: dict[str, np.ndarray] | None
 
@@ -104,10 +105,12 @@ def room_for_waves(point: Point, model: Model) -> float:
     Returns
     -------
     float
-        Distance (m) along an axis; NaN without an open edge or without water.
+        Distance (m) along an axis; infinite on a sea without end, NaN without an open edge or without water.
     """
     if point.boundary not in names.LEAVING or model.settings.layers == 1:
         return math.nan
+    if choice.at_sea(point):
+        return math.inf
     values = inner(model.cells, model.variables).values()
     moved = np.any([value != value.flat[-1] for value in values], axis=0)
     axes = range(moved.ndim)
@@ -142,6 +145,36 @@ def wave_free_until(point: Point, room: float, time: np.ndarray, eta: np.ndarray
     if gone[-1] < room:
         return float(time[-1] + (room - gone[-1]) / pace[-1])
     return float(np.interp(room, gone, time))
+
+
+def shared(model: Model, snapshots: list[Snapshot]) -> tuple[np.ndarray, list[dict[str, np.ndarray]]]:
+    """Return centres along x, and the profiles there, of the box and beyond it as far as any grains went.
+
+    Parameters
+    ----------
+    model
+        What was run, in its last state.
+    snapshots
+        Snapshots, of which those of an open sea may have fewer cells than the last.
+
+    Returns
+    -------
+    tuple of ndarray and list
+        Scaled centres (nx), and the profiles by name, each (nx), of each snapshot.
+    """
+    x = model.x
+    kept = np.abs(x) < model.half_width
+    profiles = []
+    for snapshot in snapshots:
+        before = int(np.searchsorted(x, snapshot.x[0]))
+        ends = before, len(x) - before - len(snapshot.x)
+        profiles.append(
+            {name: np.pad(values, ends, mode="edge") for name, values in snapshot.profile.items()}
+        )
+        kept |= profiles[-1]["h2"] > model.settings.dry_depth
+    first, last = np.flatnonzero(kept)[[0, -1]]
+    part = slice(first, last + 1)
+    return x[part], [{name: values[part] for name, values in profile.items()} for profile in profiles]
 
 
 def in_metres(values: list[dict[str, np.ndarray]], name: str, height: float) -> np.ndarray:
@@ -201,14 +234,14 @@ def make_run(
         Its answer.
     """
     height, time_scale = point.column_height, point.time_scale
-    profiles = [snapshot.profile for snapshot in snapshots]
+    x, profiles = shared(model, snapshots)
     whole = [snapshot.fields for snapshot in snapshots if snapshot.fields]
     time = sampled[:, samples.TIME] * time_scale
     series = series_in_si(model, point, sampled)
     front = series["x_front"]
     status, detail = ended
     final = status in FINISHED
-
+    free = wave_free_until(point, room, time, series["max_abs_eta_outside"])
     alone = model.settings.layers == 1
     rested = clock[k.REST_SINCE] >= 0 and final
     return Run(
@@ -216,12 +249,12 @@ def make_run(
         model=model.name,
         model_reason=choice.of(point).reason,
         dx=point.dx,
-        x=model.x * point.radius,
+        x=x * point.radius,
         time=time,
         series=series,
         snapshot_time=np.array([snapshot.time for snapshot in snapshots]),
         h2=in_metres(profiles, "h2", height),
-        eta=np.full((len(profiles), len(model.x)), np.nan) if alone else in_metres(profiles, "eta", height),
+        eta=np.full((len(profiles), len(x)), np.nan) if alone else in_metres(profiles, "eta", height),
         h2_diagonal=in_metres(profiles, "h2_diagonal", height) if "h2_diagonal" in profiles[0] else None,
         h2_field=in_metres(whole, "h2", height).astype(np.float32) if whole else None,
         eta_field=in_metres(whole, "eta", height).astype(np.float32) if whole else None,
@@ -230,7 +263,7 @@ def make_run(
         status_detail=detail,
         steps=len(sampled) - 1,
         wall_seconds=wall,
-        wave_free_until=wave_free_until(point, room, time, series["max_abs_eta_outside"]),
+        wave_free_until=float(np.minimum(free, model.free_until * time_scale)),
         time_of_arrest=np.array([time_of_arrest(time, one) if rested else np.nan for one in front]),
         time_at_rest=float(clock[k.REST_SINCE] * time_scale if rested else np.nan),
         box_half_width=model.half_width * point.radius,

@@ -115,5 +115,7 @@ def advance_to(
             chunks[-1] = chunks[-1][:-1]
         chunks.append(track.samples[: track.counters[k.SAMPLES]])
         look(clock[k.NOW])
-        if track.counters[k.OUTCOME] != k.FULL:
+        if track.counters[k.OUTCOME] == k.NO_ROOM:
+            model.make_room(float(clock[k.NOW]))
+        elif track.counters[k.OUTCOME] != k.FULL:
             return int(track.counters[k.OUTCOME]), wall

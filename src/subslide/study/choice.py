@@ -75,6 +75,11 @@ def exact_models(point: Point) -> tuple[str, ...]:
     return alone + EXACT[symmetry]
 
 
+def at_sea(point: Point) -> bool:
+    """Return whether a point is solved on an open sea that is lengthened as need be, so that it has no box."""
+    return point.boundary == "open" and of(point).geometry in ("radius", "line")
+
+
 def kernels(point: Point) -> str:
     """Return the name of the compiled code that a point needs: ``model:dtype``, or ``model:dtype:general``."""
     choice = of(point)

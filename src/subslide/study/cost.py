@@ -36,6 +36,11 @@ FASTEST = 2.0
 """Speed of a front over sqrt(g H2), that of a dam break on a dry bed."""
 BOXES = (1.0, 1.5, 2.25, 3.375)
 """Widths over the smallest of the boxes that a run may need, one after the other."""
+SEA = 0.25
+"""Time that a cell of the open sea beyond the box takes, over that of one in it, by the waves' way at the end: it has
+no grains, and is at rest until they come."""
+MOST_AT_SEA = 4e6
+"""Cells to which the solver lengthens a sea at most."""
 
 PROCESS = 250e6
 """Bytes of a process that has loaded its kernels (180e6), and some; compiling them takes up to 1e9 (`jobs.warm`)."""
@@ -87,9 +92,10 @@ class Estimate(NamedTuple):
 
 
 class _Size(NamedTuple):
-    """Cells of each box that a point is solved in, one after the other, those of a row of the last, and steps."""
+    """Cells that a point is solved on in all its boxes, those that the last has, those of its profiles, and steps."""
 
-    cells: list[float]
+    solved: float
+    cells: float
     row: float
     steps: float
     planar: bool
@@ -171,11 +177,16 @@ def _size(point: Point) -> _Size:
     half = point.half_cells
     reach = _reach(point, end)
     wide = 2 if geometry in ("line", "plane") else 1
+    # a step is limited by the fastest wave along each axis, sqrt(H1 + H2) scaled
+    steps = end * math.sqrt(point.scaled_level) / (point.cfl * point.scaled_dx) * (1 + planar) + 1
+    if choice.at_sea(point):
+        far = min(wide * point.wave_reach(end * point.time_scale) / point.scaled_dx, MOST_AT_SEA)
+        kept = wide * max(half, min(reach / point.scaled_dx, BOXES[-1] * half))
+        return _Size(kept + SEA * max(0.0, far - kept), 2 * max(far, kept), kept, steps, planar)
     boxes = [width for n, width in enumerate(BOXES) if n == 0 or BOXES[n - 1] * point.half_box < reach]
     rows = [wide * width * half for width in boxes]
-    # a step is limited by the fastest wave along each axis, sqrt(H1 + H2) scaled
-    steps = end * math.sqrt(point.scaled_level) / (point.cfl * point.scaled_dx) * (1 + planar)
-    return _Size([row**2 if planar else row for row in rows], rows[-1], steps + 1, planar)
+    cells = [row**2 if planar else row for row in rows]
+    return _Size(sum(cells), cells[-1], rows[-1], steps, planar)
 
 
 def _end(point: Point) -> float:
@@ -220,14 +231,14 @@ def _seconds(point: Point, size: _Size) -> float:
     """Return the seconds of a point of a size."""
     kind = "planar" if size.planar else "axial"
     slower = GENERAL if choice.of(point).general else 1
-    return START + SECONDS_PER_CELL[kind, point.order] * slower * sum(size.cells) * size.steps
+    return START + SECONDS_PER_CELL[kind, point.order] * slower * size.solved * size.steps
 
 
 def _memory(point: Point, size: _Size) -> float:
     """Return the bytes of a process that solves a point of a size."""
     real = 4 if point.dtype == "float32" else 8
-    arrays = (ARRAYS if size.planar else AXIAL_ARRAYS) * real * size.cells[-1]
-    fields = 2 * FIELD_BYTES * size.cells[-1] * _snapshots(point) if point.fields else 0
+    arrays = (ARRAYS if size.planar else AXIAL_ARRAYS) * real * size.cells
+    fields = 2 * FIELD_BYTES * size.cells * _snapshots(point) if point.fields else 0
     return (
         PROCESS
         + arrays
@@ -239,7 +250,7 @@ def _memory(point: Point, size: _Size) -> float:
 
 def _disk(point: Point, size: _Size) -> float:
     """Return the bytes in a record of a point of a size."""
-    fields = 2 * KEPT_BYTES * size.cells[-1] if point.fields else 0
+    fields = 2 * KEPT_BYTES * size.cells if point.fields else 0
     return 8 * SERIES * min(size.steps, MOST_SAMPLES) + _snapshots(point) * (8 * 3 * size.row + fields)
 
 

@@ -78,7 +78,7 @@ WORDS = ("id", "status", "status_detail", "reference", "reason")
 NO_GROWTH = {"growth_rate": math.nan, "growth_rate_theory": math.nan, "why_growth": ""}
 MEASURED = (
     *("energy", "water_volume", "sediment_volume", "nonhyperbolic_cells"),
-    *("time", "dx", "model", "box_half_width"),
+    *("time", "dx", "model", "box_half_width", "wave_free_until"),
 )
 """Variables of records that the table follows from."""
 PROFILES = ("x", "h2", "snapshot_time")
@@ -195,7 +195,7 @@ def budget(point: Point, record: dict, outcome: "pd.Series") -> dict:
     plane = record["model"] in ("quarter", "plane")
     drifts = outcome[["sediment_volume_error", "water_volume_error"]].astype(float)
     rise, why = math.nan, "no energy_rise: energy passes the open ends"
-    if point.boundary not in names.LEAVING:
+    if point.boundary not in names.LEAVING or record["wave_free_until"] == math.inf:
         series = (record[name] for name in ("energy", "water_volume", "sediment_volume"))
         rise = energy.rise(point, record["model"], float(record["box_half_width"]), *series)
         why = "" if math.isfinite(rise) else "no energy_rise: the start has no energy to release"

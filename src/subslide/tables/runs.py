@@ -101,8 +101,8 @@ MARGIN = (
     "smallest margin to complex wave speeds at any time, a discriminant: 1 at rest, below 0 where complex"
 )
 WATCHED = (
-    "largest displacement of the water surface, over the initial box and all time; where waves meet on the axis it has"
-    " no limit as cells shrink"
+    "largest displacement of the water surface, within 4.2553 R along x and y, over all time; where waves meet on the"
+    " axis it has no limit as cells shrink"
 )
 OUTSIDE = (
     "the same beyond x = R, where waves are not focused; often the jump at the start, or the sharp head of a wave: it"
@@ -129,7 +129,9 @@ COLUMNS_OF_RUN = {
     "status_detail": _recorded("status_detail", "", "what ended the run, in words"),
     "steps": _recorded("steps", "", "number of time steps"),
     "time_at_rest": _recorded("time_at_rest", "s", REST),
-    "box_half_width": _recorded("box_half_width", "m", "half-width of the box at the end"),
+    "box_half_width": _recorded(
+        "box_half_width", "m", "half-width of the box at the end, and of the paper's on an open sea"
+    ),
     "wave_free_until": _recorded("wave_free_until", "s", naming.SCALARS["wave_free_until"].long_name),
     **{f"L_f_{label}": _length(label, n) for label, n in FRONT_LABELS.items()},
     **{f"L_f_{label}_over_R": _length_over_radius(label, n) for label, n in FRONT_LABELS.items()},
@@ -193,9 +195,9 @@ def table(results: "Results") -> Iterator[dict]:
 def samples_inside(run: "StudyRun", record: dict) -> int:
     """Return the number of samples up to which nothing can have left the box.
 
-    A step carries a change `order` cells at most. Unless the box is open nothing ever leaves, and every sample counts.
+    A step carries a change `order` cells at most. Nothing ever leaves a closed box or a sea, and every sample counts.
     """
-    if run.point.boundary not in names.LEAVING:
+    if run.point.boundary not in names.LEAVING or record["wave_free_until"] == math.inf:
         return len(record["time"])
     radius = run.point.radius
     cells = (min(PAPER_BOX * radius, float(record["box_half_width"])) - radius) / float(record["dx"])

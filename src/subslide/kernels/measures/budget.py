@@ -16,7 +16,7 @@ def measure(s, c, mesh, watch, span):
     water, grains, energy = row_budget(
         c.h1, c.u1, c.v1, c.h2, c.u2, c.v2, mesh.weight, s.r, span.low, span.high
     )
-    rest = mesh.total[c.h1.shape[0]] - (mesh.total[span.high] - mesh.total[span.low])
+    rest = mesh.size - (mesh.total[span.high] - mesh.total[span.low])
     h1, h2 = watch.still1, watch.still2
     energy_at_rest = 0.5 * (s.r * h1 * h1 + h2 * h2) + s.r * h1 * h2
     return water + rest * h1, grains + rest * h2, energy + rest * energy_at_rest
