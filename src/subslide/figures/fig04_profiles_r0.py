@@ -3,11 +3,13 @@
 from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from subslide import naming
 from subslide.figures import _profiles, _slices, _style, _words
+from subslide.laboratory import lajeunesse
 from subslide.laboratory import lube as laboratory
 
 if TYPE_CHECKING:
@@ -46,6 +48,10 @@ def draw(results: "Results") -> Figure:
     figure, (left, right) = _style.panels(2, 2, 2.9)
     main = _slices.nearest(list(shapes), 1)
     _evolution(left, shapes[main], radius, height, runout)
+    round_column = runs.iloc[0]["scene"] == "cylinder"
+    if round_column:
+        top = lajeunesse.height(runs.iloc[0]["a_2"]) * radius * _words.length_unit(height).factor
+        left.axhline(top, xmax=0.06, **LAW)
     left.set_title(_words.panel(0, f"$h_2$ along $x$, {_words.equation('a_H', main)}"))
     depths = _foot(right, shapes, radius, height, runout)
     right.set_title(_words.panel(1, "foot of the deposit at the end of the run"))
@@ -55,7 +61,10 @@ def draw(results: "Results") -> Figure:
     }
     farthest = np.nanmax([runout, *fronts.values()])
     right.set_xlim(0.75 * runout, 1.1 * farthest)
-    notes = [*_notes(depths, fronts, runout), *chosen.notes, *_words.trouble(runs, by=("a_H",))]
+    notes = _notes(depths, fronts, runout)
+    if round_column:
+        notes += _in_the_middle(runs, shapes, radius)
+    notes += [*chosen.notes, *_words.trouble(runs, by=("a_H",))]
     title = "Profiles of the grains at $r$ = 0, beside the laboratory runout law"
     return _style.finish(figure, title, chosen.about, notes)
 
@@ -115,6 +124,31 @@ def _foot(
     ax.set_yticks([100 * t for t in naming.FRONT_THRESHOLDS] + [10, 15, 20, 25])
     ax.legend(loc="upper right", frameon=True, edgecolor="white", framealpha=1)
     return depths
+
+
+def _in_the_middle(
+    runs: pd.DataFrame, shapes: dict[float, list[_profiles.Profile]], radius: float
+) -> list[str]:
+    """Return what the figure measures of the height on the axis and of the time of rest, beside the laboratory's."""
+    row = runs.iloc[0]
+    law = laboratory.duration(row["a_2"] * radius, row["g"])
+    unit = _words.time_unit(law)
+    ends = {a_H: _profiles.at(profiles, None) for a_H, profiles in shapes.items()}
+    tops = [f"{np.interp(0, end.x, end.values) / radius:.2f}" for end in ends.values() if end]
+    notes = []
+    if tops:
+        notes.append(
+            f"Tick on the left axis: height on the axis of such deposits (Lajeunesse et al. 2004), the lesser of $a_2$"
+            f" and 0.74 $R$: {lajeunesse.height(row['a_2']):.2f} $R$; the model's: {', '.join(tops)} $R$."
+        )
+    rest = runs["time_at_rest"].dropna()
+    if len(rest):
+        times = ", ".join(f"{time * unit.factor:.3g}" for time in rest)
+        notes.append(
+            f"Grains of such columns are at rest after 3.0 $\\sqrt{{H_2/g}}$ = {law * unit.factor:.3g} {unit.name}"
+            f" (Lube et al. 2004); the model's after {times} {unit.name}."
+        )
+    return notes
 
 
 def _notes(depths: dict[float, float], fronts: dict[float, float], runout: float) -> list[str]:
