@@ -107,6 +107,16 @@ def test_laboratory_law():
     assert laboratory.runout(4.0) == pytest.approx(4.2)
 
 
+def test_height_and_time_of_rest_stand_beside_the_laboratorys(paper):
+    row = paper.select(a_H=2.0, r=0.0).iloc[0]
+    record = paper.record(row["id"])
+    top = np.interp(0, record["x"], record["h2"].isel(snapshot=-1)) / row["radius"]
+    text = words(draw("fig04_profiles_r0", paper))
+    assert f"{top:.2f}" in text
+    assert f"{1e3 * row['time_at_rest']:.3g} ms" in text
+    assert f"{3e3 * np.sqrt(0.56 * 0.0705 / 9.81):.3g} ms" in text
+
+
 def test_depth_at_the_laboratory_runout_is_measured(paper):
     record = paper.record(paper.select(a_H=2.0, r=0.0)["id"].iloc[0])
     depth = 100 * np.interp(1.6944 * 0.0705, record["x"], record["h2"].isel(snapshot=-1)) / (0.56 * 0.0705)

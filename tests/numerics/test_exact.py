@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from states import advance, axial, inner
 
-from subslide.exact import dam_break
+from subslide.exact import dam_break, riemann
 from subslide.exact.paraboloid import depth, radius, ring_mean
 from subslide.scenes import standing_wave
 from subslide.scenes._bessel import bessel, zero_of_j1
@@ -197,3 +197,36 @@ def test_the_paraboloid_scene_is_its_solution_at_the_start():
     run, exact = solved(scene="paraboloid", r=0, quantities="grains", cells=100, t_end=0.12)
     np.testing.assert_allclose(run.h2[0], depth(run.x / 0.0705, 0) * 0.56 * 0.0705, atol=2e-4)
     assert np.abs(run.h2[-1] - exact["h2"]).sum() / exact["h2"].sum() < 0.006
+
+
+@pytest.mark.parametrize(("a_H", "r"), [(2.0, 0.2), (2.0, 0.8), (5.0, 0.6), (10.0, 0.4)])
+def test_the_coupled_fan_is_a_wave_that_meets_the_water_beyond_it(a_H, r):
+    fan = riemann.fan(a_H, r)
+    assert np.all(np.diff(fan.place) > -1e-9)
+    assert fan.h2[-3] == 0
+    # both volumes hold: what is beyond x = 0 has left the other side
+    edges = np.concatenate([[-5.0], fan.place, [5.0]])
+    for inside, left, right in ((fan.h2, 1.0, 0.0), (fan.h1, a_H, 1 + a_H)):
+        whole = np.concatenate([[left], inside, [right]])
+        assert np.trapezoid(whole, edges) == pytest.approx(5 * (left + right), abs=1e-3)
+
+
+def test_without_pull_the_coupled_fan_is_that_of_ritter():
+    fan = riemann.fan(1000.0, 1e-9)
+    inner = (fan.place > -0.9) & (fan.place < 2)
+    np.testing.assert_allclose(fan.h2[inner], (2 - fan.place[inner]) ** 2 / 9, atol=1e-3)
+
+
+@pytest.mark.parametrize(("a_H", "r"), [(2.0, 0.4), (10.0, 0.8)])
+@pytest.mark.parametrize(("order", "rate"), [(1, 0.5), (2, 0.9)])
+def test_the_coupled_dam_break_converges(a_H, r, order, rate):
+    errors = []
+    for cells in (200, 800):
+        run, known = solved(
+            scene="riemann", a_H=a_H, r=r, delta=0, boundary="wall", order=order, cells=cells, t_end=0.14
+        )
+        pairs = ((getattr(run, key)[-1], known[key]) for key in ("h2", "eta"))
+        errors.append([np.abs(one - other).sum() / np.abs(other).sum() for one, other in pairs])
+    coarse, fine = errors
+    assert (np.log2(np.divide(coarse, fine)) / 2 > rate).all()
+    assert (np.array(fine) < [0.007, 0.11]).all()

@@ -134,7 +134,7 @@ def test_a_study_says_it_once_for_each_region():
 
 
 def test_a_normal_run_is_silent_and_an_unsafe_one_says_so_once(tmp_path, capfd):
-    options = ["run", "--cells", "20", "--t-end", "0.01", "-o", str(tmp_path / "a.nc")]
+    options = ["run", "--cells", "100", "--t-end", "0.01", "-o", str(tmp_path / "a.nc")]
     assert main(options) == 0
     assert capfd.readouterr().err == ""
     assert main([*options, "--cfl", "1.5"]) == 0

@@ -17,7 +17,7 @@ from subslide.keys import schema, words
 from subslide.points import RUN_KEYS
 from subslide.records.netcdf import read
 
-QUICK = ("--model", "radial", "--cells", "20", "--t-end", "0.02")
+QUICK = ("--model", "radial", "--cells", "60", "--t-end", "0.02")
 BAD = {
     ("--r", "1.5"): ("--r", "1.5", "from 0 to 0.99999"),
     ("--a-H", "-1"): ("--a-H", "-1", "from 0 to 1000"),

@@ -18,7 +18,7 @@ from subslide.records import netcdf
 from subslide.results import Results
 from subslide.study import batches, config, outputs, plan
 
-QUICK = ("--model", "radial", "--cells", "20", "--t-end", "0.02")
+QUICK = ("--model", "radial", "--cells", "60", "--t-end", "0.02")
 BYTES = b"mine"
 
 

@@ -154,7 +154,7 @@ def test_code_of_sources_that_have_changed_is_not_kept(tmp_path, monkeypatch):
     assert not kept(tmp_path)
 
 
-QUICK = f"{sys.executable} -m subslide run --model radial --cells 20 --t-end 0.01 -o x.nc"
+QUICK = f"{sys.executable} -m subslide run --model radial --cells 60 --t-end 0.01 -o x.nc"
 
 
 @pytest.mark.parametrize(

@@ -81,10 +81,11 @@ def run(config: str | None, threads: int, output: str, **options: Any) -> None:
 
 
 def caution(points: Iterable[Point]) -> None:
-    """Say on stderr, once of each unsafe region, that some of the points lie in it."""
-    from subslide.study import cautions
+    """Say on stderr, once of each unsafe region and note, that it fits some of the points."""
+    from subslide.study import cautions, notes
 
-    for line in cautions.cautions(points):
+    points = list(points)
+    for line in (*cautions.cautions(points), *notes.notes(points)):
         click.echo(f"subslide: {line}", err=True)
 
 

@@ -10,7 +10,12 @@ from subslide.figures import _style
 if TYPE_CHECKING:
     from subslide.results import Results
 
-NAMES = {"standing_wave": "standing wave", "dam_break": "dam break", "paraboloid": "paraboloid"}
+NAMES = {
+    "standing_wave": "standing wave",
+    "dam_break": "dam break",
+    "riemann": "coupled dam break",
+    "paraboloid": "paraboloid",
+}
 
 
 def cases(results: "Results") -> dict[str, pd.DataFrame]:

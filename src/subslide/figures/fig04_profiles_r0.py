@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from subslide import naming
 from subslide.figures import _kinds, _profiles, _slices, _style, _words
+from subslide.laboratory import lajeunesse
 from subslide.laboratory import lube as laboratory
 
 if TYPE_CHECKING:
@@ -46,12 +47,19 @@ def draw(results: "Results") -> Figure:
     figure, (left, right) = _style.panels(2, 2, 2.9)
     main = _slices.nearest(list(kinds[-1].runs["a_H"]), 1)
     _evolution(left, kinds, shapes, main, (radius, height, runout))
+    round_column = runs.iloc[0]["scene"] == "cylinder"
+    if round_column:
+        top = lajeunesse.height(runs.iloc[0]["a_2"]) * radius * _words.length_unit(height).factor
+        left.axhline(top, xmax=0.06, **LAW)
     left.set_title(_words.panel(0, f"$h_2$ along $x$, {_words.equation('a_H', main)}"))
     depths = _foot(right, kinds, shapes, (radius, height, runout))
     right.set_title(_words.panel(1, "foot of the deposit at the end of the run"))
     farthest = np.nanmax([runout, *runs[f"L_f_{_words.THRESHOLD_LABEL}_over_R"]])
     right.set_xlim(0.75 * runout, 1.1 * farthest)
-    notes = [*_notes(kinds, depths, runout), *kinds[0].chosen.notes, *_words.trouble(runs, by=("a_H",))]
+    notes = _notes(kinds, depths, runout)
+    if round_column:
+        notes += _in_the_middle(kinds, shapes, radius)
+    notes += [*kinds[0].chosen.notes, *_words.trouble(runs, by=("a_H",))]
     title = "Profiles of the grains at $r$ = 0, beside the laboratory runout law"
     return _style.finish(figure, title, _kinds.about(kinds), notes, more=_kinds.entries(kinds, symbols=False))
 
@@ -138,6 +146,28 @@ def _foot(
     ax.set_yticks([100 * t for t in naming.FRONT_THRESHOLDS] + [10, 15, 20, 25])
     ax.legend(loc="upper right", frameon=True, edgecolor="white", framealpha=1)
     return depths
+
+
+def _in_the_middle(
+    kinds: list[_kinds.Kind], shapes: dict[str, list[_profiles.Profile]], radius: float
+) -> list[str]:
+    """Return what the figure measures of the height on the axis and of the time of rest, beside the laboratory's."""
+    row = kinds[0].runs.iloc[0]
+    law = laboratory.duration(row["a_2"] * radius, row["g"])
+    unit = _words.time_unit(law)
+    notes = [
+        "Tick on the left axis: height on the axis of such deposits (Lajeunesse et al. 2004), the lesser of $a_2$ and"
+        f" 0.74 $R$: {lajeunesse.height(row['a_2']):.2f} $R$. Grains of such columns are at rest after 3.0"
+        f" $\\sqrt{{H_2/g}}$ = {law * unit.factor:.3g} {unit.name} (Lube et al. 2004)."
+    ]
+    for kind in kinds:
+        ends = [_profiles.at(shapes[name], None) for name in kind.runs["id"]]
+        tops = [f"{np.interp(0, end.x, end.values) / radius:.2f}" for end in ends if end]
+        rest = [f"{time * unit.factor:.3g}" for time in kind.runs["time_at_rest"].dropna()]
+        if tops and rest:
+            text = f"Height there {', '.join(tops)} $R$, at rest after {', '.join(rest)} {unit.name}."
+            notes.append(kind.called(text))
+    return notes
 
 
 def _notes(kinds: list[_kinds.Kind], depths: dict[str, dict[float, float]], runout: float) -> list[str]:

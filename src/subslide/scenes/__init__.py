@@ -15,6 +15,9 @@ and, only where it needs them,
 
 check(point) -> None
     Raise a ConfigError where the scene makes no sense with the rest of the point.
+front(point) -> float or None
+    Return where the grains end at the start on the positive x axis, over R, if there is an upright side; else None.
+    Without it the front is read off the grid, which smears such a side over two cells.
 complete(chosen) -> dict
     Return the options ``chosen``, by name and checked each for itself, with what follows from them filled in; raise a
     ConfigError where that cannot be.
@@ -112,6 +115,23 @@ def check(point: Point) -> None:
     judge = getattr(load(point.scene), "check", None)
     if judge:
         judge(point)
+
+
+def front(point: Point) -> float | None:
+    """Return where the upright side of the grains stands at the start on the positive x axis, over R, if there is one.
+
+    Parameters
+    ----------
+    point
+        The run.
+
+    Returns
+    -------
+    float or None
+        The place; None where the scene has none there.
+    """
+    place = getattr(load(point.scene), "front", None)
+    return place(point) if place else None
 
 
 def check_walls(point: Point) -> None:

@@ -3,6 +3,7 @@
 Where two columns overlap the height is 1. The front is measured from the middle of the box, along x.
 """
 
+import math
 from typing import Any
 
 import numpy as np
@@ -57,6 +58,15 @@ def check(point: Point) -> None:
                 f"scene_options: {axis}: {chosen[axis]:g} puts a column beyond the box, which ends at"
                 f" {point.half_box:.4g} R; allowed with these columns: at most {point.half_box - reach:.4g} in size"
             )
+
+
+def front(point: Point) -> float | None:
+    """Return how far the columns reach along the x axis; None if they do not reach it beyond 0."""
+    chosen = options(point)
+    if abs(chosen["y"]) >= 1:
+        return None
+    reach = chosen["x"] + spread(chosen) + math.sqrt(1 - chosen["y"] ** 2)
+    return reach if reach > 0 else None
 
 
 def initial(grid: Grid, point: Point) -> State:

@@ -15,6 +15,11 @@ def symmetry(point: Point) -> str:
     return "round"
 
 
+def front(point: Point) -> float:
+    """Return the radius."""
+    return 1.0
+
+
 def initial(grid: Grid, point: Point) -> State:
     """Return the column at rest under still water (alone for `one-layer`)."""
     lone = grid.geometry == "radius"

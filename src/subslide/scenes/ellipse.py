@@ -34,6 +34,13 @@ def symmetry(point: Point) -> str:
     return "quarter" if chosen["angle"] % 90 == 0 else "none"
 
 
+def front(point: Point) -> float:
+    """Return how far the ellipse reaches along x from its centre."""
+    chosen = options(point)
+    a, turned = math.sqrt(chosen["elongation"]), math.radians(chosen["angle"] % 180)
+    return 1 / math.hypot(math.cos(turned) / a, math.sin(turned) * a)
+
+
 def initial(grid: Grid, point: Point) -> State:
     """Return the column at rest under still water."""
     chosen = options(point)

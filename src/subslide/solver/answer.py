@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from subslide import scenes
 from subslide.kernels import clock as k
 from subslide.kernels import measures, samples
 from subslide.kernels.measures import Scales
@@ -83,6 +84,9 @@ def series_in_si(model: Model, point: Point, sampled: np.ndarray) -> dict[str, n
     # 0 where no cell beyond the axis reaches the threshold: there is the edge of a dam, or nothing
     at_axis = choice.of(point).geometry == "line" and column[samples.COLUMN["sediment_volume"]].max() > 0
     series = {"x_front": np.where((front > 0) | at_axis, front * si.length, np.nan)}
+    side = scenes.front(point)
+    if side is not None:
+        series["x_front"][:, 0] = side * si.length
     alone = model.settings.layers == 1
     series["eta_gauge"] = column[samples.GAUGE] * (math.nan if alone else si.height)
     for name, measured in measures.SERIES.items():

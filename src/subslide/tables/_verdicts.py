@@ -27,6 +27,7 @@ EXPECTED = {
     "paraboloid one-layer": (0.6, 1.6),
     "paraboloid": (0.6, 1.0),
     "dam_break": (0.6, 0.8),
+    "riemann": (0.4, 0.8),
 }
 """Least expected orders of schemes of first and second order, by scene, or by scene and model."""
 REQUIRED = ("standing_wave", "paraboloid one-layer")

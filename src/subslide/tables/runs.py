@@ -97,6 +97,7 @@ REST = (
     "time since which no grain has moved (late waves may nudge a few); empty if some move at the end. Has no limit as"
     " cells shrink; the times of arrest do"
 )
+MOVED = "whether any grain moved, `yes` or `no`; empty if the run failed"
 MARGIN = (
     "smallest margin to complex wave speeds at any time, a discriminant: 1 at rest, below 0 where complex"
 )
@@ -129,6 +130,7 @@ COLUMNS_OF_RUN = {
     "status_detail": _recorded("status_detail", "", "what ended the run, in words"),
     "steps": _recorded("steps", "", "number of time steps"),
     "time_at_rest": _recorded("time_at_rest", "s", REST),
+    "moved": Column("", MOVED, lambda run, record: moved(record)),
     "box_half_width": _recorded(
         "box_half_width", "m", "half-width of the box at the end, and of the paper's on an open sea"
     ),
@@ -167,7 +169,7 @@ COLUMNS = {
     },
 }
 WORDS = (
-    *("id", "numerics", "resolved_model", "status", "status_detail"),
+    *("id", "numerics", "resolved_model", "status", "status_detail", "moved"),
     *(f"{name}_convergence" for name in bands.ONCE),
 )
 MEASURED = (
@@ -209,6 +211,13 @@ def energy_rise(run: "StudyRun", record: dict) -> float:
     inside = ~(record["time"] > record["wave_free_until"])
     series = (record[name][inside] for name in ("energy", "water_volume", "sediment_volume"))
     return energy.rise(run.point, record["model"], float(record["box_half_width"]), *series)
+
+
+def moved(record: dict) -> str:
+    """Return whether any grain of a run moved, `yes` or `no`; '' if it failed."""
+    if record["status"] not in naming.FINISHED:
+        return ""
+    return "no" if record["time_at_rest"] == 0 else "yes"
 
 
 def peak(values: np.ndarray, time: np.ndarray) -> tuple[float, float]:

@@ -1,0 +1,143 @@
+"""What is said once of runs that are safe but not what was meant: beyond what was tried, too coarse, or half unheard.
+
+Beside `cautions`, whose regions the stability atlas found unsafe. Imports no kernels.
+"""
+
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
+
+from subslide import catalogue
+from subslide.keys import words
+from subslide.keys.entries import ENTRIES
+from subslide.points import Point, default_of
+from subslide.study import choice
+from subslide.study.cautions import Region
+
+VOUCHED = {"a_H": (0.5, 10), "a_2": (0.3, 1.5), "r": (0, 0.8), "delta": (20, 40)}
+"""Range of the columns, by key, for which README.md says what error to expect."""
+COARSEST = 0.2
+"""Cell size over R of a column above which L_f errs by up to 16 to 29 % (below it by up to 13 %; 25 columns)."""
+COLUMNS = ("cylinder", "ellipse", "columns")
+"""Scenes of columns with upright sides."""
+
+
+def _beyond(point: Point) -> bool:
+    """Return whether a column lies outside the range that the README vouches for."""
+    inside = (low <= getattr(point, key) <= high for key, (low, high) in VOUCHED.items())
+    return point.scene == "cylinder" and not all(inside)
+
+
+def _stands(point: Point) -> bool:
+    """Return whether friction holds even the side of a column, which no grid makes steeper than 1 / dx."""
+    holds = point.friction_number * point.scaled_dx >= 1
+    return point.scene in COLUMNS and point.friction != "pouliquen" and holds
+
+
+NOTES = (
+    Region(
+        "range",
+        _beyond,
+        "what error to expect is known for "
+        + ", ".join(f"{key} {low:g} to {high:g}" for key, (low, high) in VOUCHED.items())
+        + "; elsewhere it may be larger",
+        "bands: true, which gives each run of a study its own error",
+        {"a_2": 0.07, "delta": 40, "cells": 200},
+        {"a_2": 0.56},
+        "",
+    ),
+    Region(
+        "coarse grid",
+        lambda point: point.scene in COLUMNS and point.scaled_dx > COARSEST,
+        f"with cells of more than {COARSEST:g} R the length of the deposit errs by up to a quarter",
+        "cells: 100 or more",
+        {"cells": 20, "a_2": 1.2},
+        {"cells": 100},
+        "",
+    ),
+    Region(
+        "standing column",
+        _stands,
+        "on this grid friction holds the upright side of the column, and no grain can move",
+        "more cells, or a smaller delta",
+        {"a_2": 0.02, "delta": 30, "cells": 100},
+        {"cells": 1000},
+        "",
+    ),
+)
+
+
+class Unheard(NamedTuple):
+    """A key that some runs do not heed: where, and why."""
+
+    key: str
+    where: Callable[[Point], bool]
+    reason: str
+
+
+def _alone(point: Point) -> bool:
+    """Return whether grains are solved alone."""
+    return choice.of(point).model == "one-layer"
+
+
+FRONTS = tuple(
+    name
+    for name in ENTRIES["scheme"]["enum"]
+    if catalogue.literals("kernels/viscosity", name).get("EXACT_FRONT")
+)
+"""Riemann solvers that let grains run onto a dry bed with the exact flux of a front."""
+
+UNHEARD = (
+    Unheard(
+        "front_flux",
+        lambda point: point.scheme not in FRONTS,
+        f"only scheme: {' and '.join(FRONTS)} have an exact flux; the others take HLL's, or Rusanov's, at any front",
+    ),
+    Unheard("wave_speeds", _alone, "grains alone have exact speeds in closed form"),
+    Unheard(
+        "treatment",
+        lambda point: _alone(point) or point.r == 0 or (point.treatment == "hll" and point.scheme == "hll"),
+        "speeds of grains alone, or at r = 0, are never complex, and scheme: hll is HLL already",
+    ),
+    Unheard("xi", lambda point: point.friction != "voellmy", "only friction: voellmy has it"),
+    *(
+        Unheard(key, lambda point: point.friction != "pouliquen", "only friction: pouliquen has it")
+        for key in ("delta_2", "pouliquen_length")
+    ),
+)
+"""Keys that some values of others leave without effect, where they are not at their defaults."""
+
+
+def notes(points: Iterable[Point]) -> list[str]:
+    """Return the lines to say of points, one for each note that fits any, with how many of several it fits.
+
+    Parameters
+    ----------
+    points
+        Runs.
+
+    Returns
+    -------
+    list of str
+        Lines, in the form of `cautions.cautions`.
+    """
+    points = list(points)
+    lines = []
+    for note in NOTES:
+        count = sum(map(note.holds, points))
+        if count:
+            lines.append(
+                f"caution, {note.name} ({_who(count, points)}): {note.reason}. Choose {note.advice}."
+            )
+    for key, where, reason in UNHEARD:
+        deaf = [point for point in points if getattr(point, key) != default_of(key) and where(point)]
+        if deaf:
+            value = words.show(getattr(deaf[0], key))
+            lines.append(
+                f"caution, without effect ({_who(len(deaf), points)}): {key}, such as {value}: {reason}."
+            )
+    return lines
+
+
+def _who(count: int, points: list[Point]) -> str:
+    """Return which of the points are spoken of, in words."""
+    return f"{count} of {len(points)} runs" if len(points) > 1 else "this run"
