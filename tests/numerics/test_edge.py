@@ -116,7 +116,7 @@ def roe_mean(w_i, w_j):
 @given(w=states, d=st.tuples(speeds, speeds, speeds, speeds), r=ratios)
 def test_products_with_the_roe_matrix(w, d, r):
     h1, u1, h2, u2 = w
-    a = RoeMatrix(u1, h1 - u1 * u1, h1, u2, h2 - u2 * u2, h2, r * h2)
+    a = RoeMatrix(u1, h1 - u1 * u1, h1, u2, h2 - u2 * u2, h2, r * h2, 0.0, 0.0)
     np.testing.assert_allclose(times(a, Jump(*d)), matrix(*w, r) @ d, rtol=1e-12, atol=1e-12)
 
 

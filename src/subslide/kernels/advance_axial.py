@@ -21,7 +21,7 @@ from subslide.kernels.hyperbolicity import judged
 from subslide.kernels.jit import inlined, launch
 from subslide.kernels.measures import RowSpan
 from subslide.kernels.reduce import extremes
-from subslide.kernels.row import edges, grain_edges, water_edges
+from subslide.kernels.row import edges, film_edges, grain_edges, water_edges
 
 
 @inlined
@@ -80,6 +80,7 @@ def step(s, c, left, right, fx, terms, mesh, active, end_kind, dt):
     else:
         slow, fast = (c.slow_x, c.slow_x), (c.fast_x, c.fast_x)
         edges(s, fx, slow, fast, right, left, BEFORE, 1, low, high)
+        film_edges(s, fx, right, left, BEFORE, 1, low, high)
         water_edges(s, fx, slow, fast, right, left, BEFORE, 1, start, low)
         water_edges(s, fx, slow, fast, right, left, BEFORE, 1, high, end + 1)
     fill_terms(s, c, fx, terms, mesh, start, end, wet_start, wet_end, end_kind, dt)

@@ -42,7 +42,7 @@ from subslide.kernels.planar import (
 )
 from subslide.kernels.planar_faces import faces
 from subslide.kernels.reduce import extremes, largest, smallest
-from subslide.kernels.row import edges, tangential, water_edges, water_tangential
+from subslide.kernels.row import edges, film_edges, tangential, water_edges, water_tangential
 
 BLOCK = 16
 """Rows a block: few enough to share among cores, many enough that the row before it costs little."""
@@ -132,6 +132,7 @@ def row_fluxes(s, f, slow, fast, before, after, shift, step, span, wet):
     start, stop = span
     low, high = wet
     edges(s, f, slow, fast, before, after, shift, step, low, high)
+    film_edges(s, f, before, after, shift, step, low, high)
     tangential(s, f, before, after, shift, step, low, high)
     water_edges(s, f, slow, fast, before, after, shift, step, start, low)
     water_tangential(f, before, after, shift, step, start, low)
