@@ -14,6 +14,16 @@ STEEP = 4.0
 """Steps of grains that are higher than the water over this number are a bed to it."""
 
 
+LOOKED_FOR = 8.0
+"""Such steps are looked for where any water is less than this many times as deep as the step that friction can hold."""
+
+
+@inlined
+def may_overtop(s, shallowest):
+    """Return whether water of this least depth is so thin that some step may overtop it."""
+    return shallowest < type(s.m)(LOOKED_FOR) * s.m * s.dx
+
+
 @inlined
 def overtops(stuck, i_h1, i_h2, j_h1, j_h2):
     """Return by how much a step of grains at rest is too high for the water at its foot or on it, else 0."""

@@ -2,7 +2,15 @@
 
 from subslide.kernels.arrays import is_general
 from subslide.kernels.edge.front import front_fluxes, runs_onto_dry_bed
-from subslide.kernels.edge.roe_matrix import Jump, cubic_polynomial, jump, parts, polynomial, roe_matrix, times
+from subslide.kernels.edge.roe_matrix import (
+    Jump,
+    cubic_polynomial,
+    jump,
+    parts,
+    polynomial,
+    roe_matrix,
+    times,
+)
 from subslide.kernels.edge.stuck import sees_friction
 from subslide.kernels.hyperbolicity import takes_hll
 from subslide.kernels.jit import inlined
