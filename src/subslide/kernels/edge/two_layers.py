@@ -11,7 +11,7 @@ from subslide.kernels.edge.roe_matrix import (
     roe_matrix,
     times,
 )
-from subslide.kernels.edge.stuck import sees_friction
+from subslide.kernels.edge.stuck import by_weight, sees_friction
 from subslide.kernels.hyperbolicity import takes_hll
 from subslide.kernels.jit import inlined
 from subslide.kernels.viscosity import IFCP, alpha, cubic, hll, is_cubic
@@ -78,4 +78,6 @@ def edge_fluxes(s, stuck, slowest, fastest, i, j, d_eta):
 
     f1 = half * (q1_i + q1_j - lost1)
     m1 = half * (q1_i * i.u1 + q1_j * j.u1 - lost_q1)
-    return f1, m1, a.h1 * d_eta, f2, m2, a.h2 * (s.r * d.h1 + d.h2)
+    d_head = s.r * d.h1 + d.h2
+    m2 = m2 + by_weight(i.h2, j.h2, d_head) if holds else m2
+    return f1, m1, a.h1 * d_eta, f2, m2, a.h2 * d_head
