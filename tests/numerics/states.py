@@ -67,7 +67,7 @@ def plane(edges, h1, h2, *, level, u1=0.0, v1=0.0, u2=0.0, v2=0.0, walls=(True,)
 
 def advance(model, stop=math.inf, steps=None, thresholds=THRESHOLDS):
     """Samples of the time loop up to the scaled time `stop`, or of `steps` steps."""
-    clock = np.array([0.0, stop if math.isfinite(stop) else 1e9, math.inf, -1.0])
+    clock = k.started(stop if math.isfinite(stop) else 1e9)
     chunks = []
     while True:
         size = 513 if steps is None else steps + 1

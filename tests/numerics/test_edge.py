@@ -94,6 +94,12 @@ def fluxes(scheme, r, w_i, w_j, stuck=False, exact_front=True):
     return np.array([f1, m1, f2, m2]), np.array([0, p1, 0, p2])
 
 
+def parts(r, w_i, w_j):
+    """Whether a layer parts faster than its two sound speeds, where the viscosity is that of HLL."""
+    c1, c2 = (np.sqrt(w_i[k]) + np.sqrt(w_j[k]) for k in (0, 2))
+    return w_j[1] - w_i[1] > c1 or w_j[3] - w_i[3] > np.sqrt(1 - r) * c2
+
+
 def conserved(w):
     h1, u1, h2, u2 = w
     return np.array([h1, h1 * u1, h2, h2 * u2])
@@ -116,7 +122,7 @@ def roe_mean(w_i, w_j):
 @given(w=states, d=st.tuples(speeds, speeds, speeds, speeds), r=ratios)
 def test_products_with_the_roe_matrix(w, d, r):
     h1, u1, h2, u2 = w
-    a = RoeMatrix(u1, h1 - u1 * u1, h1, u2, h2 - u2 * u2, h2, r * h2)
+    a = RoeMatrix(u1, h1 - u1 * u1, h1, u2, h2 - u2 * u2, h2, r * h2, 0.0, 0.0)
     np.testing.assert_allclose(times(a, Jump(*d)), matrix(*w, r) @ d, rtol=1e-12, atol=1e-12)
 
 
@@ -144,12 +150,13 @@ def test_fluctuations_add_up_to_the_roe_matrix_times_the_jump(scheme, w_i, w_j, 
 @settings(deadline=None)
 @given(w_i=states, w_j=states, r=ratios)
 def test_viscosity_is_the_polynomial_of_the_roe_matrix(scheme, w_i, w_j, r):
+    kind = "hll" if parts(r, w_i, w_j) and scheme != "rusanov" else scheme
     mean = roe_mean(w_i, w_j)
     speeds = np.array([outer_speeds(*w, r) for w in (w_i, w_j, mean)])
     s_l, s_r = speeds[:, 0].min(), speeds[:, 1].max()
     centre, half = inner_speeds(*mean, r, *speeds[2])
     s_int = side(s_l, s_r) * (abs(centre) + np.sqrt(max(half, 0)))
-    a0, a1, a2 = alpha(scheme, s_l, s_int, s_r)
+    a0, a1, a2 = alpha(kind, s_l, s_int, s_r)
     a = matrix(*mean, r)
     jump = conserved(w_j) - conserved(w_i)
     viscous = (a0 * np.eye(4) + a1 * a + a2 * a @ a) @ jump
@@ -258,6 +265,7 @@ def test_roe_polynomial_survives_equal_speeds(speeds):
 @settings(max_examples=200, deadline=None)
 @given(w_i=states, w_j=states, r=st.floats(0.05, 0.95))
 def test_roe_viscosity_is_the_absolute_value_of_the_roe_matrix(w_i, w_j, r):
+    assume(not parts(r, w_i, w_j))
     mean = roe_mean(w_i, w_j)
     values, vectors = np.linalg.eig(matrix(*mean, r))
     gap = np.diff(np.sort(values.real)).min()

@@ -12,6 +12,7 @@ from subslide.kernels import samples as columns
 from subslide.kernels.active import FIRST, LAST, WET_FIRST, WET_LAST
 from subslide.kernels.arrays import Cells, CellTerms, Side, Track, allocate
 from subslide.kernels.axial_faces import faces, water_faces
+from subslide.kernels.clock import started
 from subslide.kernels.edge.roe_matrix import Normal
 from subslide.kernels.edge.two_layers import edge_fluxes
 from subslide.kernels.edge.water import water_edge_fluxes
@@ -32,7 +33,7 @@ def advanced(model, order, dtype, *, everywhere=False, **values):
     if everywhere:
         real = type(found.settings.r)
         found.watch = found.watch._replace(still1=real(-1), still2=real(-1))
-    clock = np.array([0.0, math.inf, math.inf, -1.0])
+    clock = started(math.inf)
     track = Track(clock, np.zeros((41, columns.COLUMNS)), np.zeros(2, np.int64))
     found.advance(thresholds(found), track)
     return found, track.samples

@@ -11,18 +11,20 @@ from subslide.kernels.axial import (
     fill_ghosts,
     fill_stuck,
     fill_terms,
+    slow_down,
     update,
     water_cell_speeds,
 )
 from subslide.kernels.axial_faces import faces, water_faces
 from subslide.kernels.boundary import OPEN, PERIODIC
+from subslide.kernels.edge.film import may_overtop
 from subslide.kernels.front import front_position
 from subslide.kernels.gauge import displacement
 from subslide.kernels.hyperbolicity import judged
 from subslide.kernels.jit import inlined, launch
 from subslide.kernels.measures import RowSpan
 from subslide.kernels.reduce import extremes, weighted_sum
-from subslide.kernels.row import edges, grain_edges, water_edges
+from subslide.kernels.row import edges, film_edges, grain_edges, water_edges
 
 
 @inlined
@@ -67,10 +69,11 @@ def survey(s, c, active):
 
 
 @inlined
-def step(s, c, left, right, fx, terms, mesh, active, end_kind, dt):
+def step(s, c, left, right, fx, terms, mesh, active, end_kind, film, dt, acts):
     """Advance the active cells by dt: faces, stuck edges, fluxes, limits, update.
 
-    active: padded columns [first, last) and those with grains; end_kind: what the left end is, see `boundary`.
+    active: padded columns [first, last) and those with grains; end_kind: what the left end is, see `boundary`; film:
+    whether water may be thin over steps of grains; acts: how long friction does, see `clock.friction_time`.
     """
     first, last, wet_first, wet_last = active
     n = c.h1.shape[0]
@@ -89,10 +92,12 @@ def step(s, c, left, right, fx, terms, mesh, active, end_kind, dt):
     else:
         slow, fast = (c.slow_x, c.slow_x), (c.fast_x, c.fast_x)
         edges(s, fx, slow, fast, right, left, BEFORE, 1, low, high)
+        if film:
+            film_edges(s, fx, right, left, BEFORE, 1, low, high)
         water_edges(s, fx, slow, fast, right, left, BEFORE, 1, start, low)
         water_edges(s, fx, slow, fast, right, left, BEFORE, 1, high, end + 1)
     fill_terms(s, c, fx, terms, mesh, start, end, wet_start, wet_end, end_kind, dt)
-    update(s, c, fx, terms, mesh, start, end, wet_start, wet_end, dt)
+    update(s, c, fx, terms, mesh, start, end, wet_start, wet_end, dt, acts)
 
 
 @inlined
@@ -129,12 +134,12 @@ def advance(s, c, left, right, fx, terms, mesh, walls, watch, thresholds, track)
         now = clock[k.NOW]
         row = track.samples[n]
         sample(s, c, mesh, watch, thresholds, low, high, wet, now, row)
-        shallowest, square2, pace = extremes(c.h1, c.h2, c.square2, c.pace, low, high)
+        least1, shallowest, square2, pace = extremes(c.h1, c.h2, c.square2, c.pace, low, high)
         n += 1
         grains = row[samples.GRAINS] - grains_beyond(c.h2, mesh.weight, watch, wet[0], wet[1])
         at_edge = rim_depth(c.h2, watch) >= thresholds[0] or grains < watch.least_grains
         full = n == track.samples.shape[0]
-        code = k.outcome(clock, samples.is_finite(row), shallowest, square2, at_edge, full)
+        code = k.outcome(clock, samples.is_finite(row), min(least1, shallowest), square2, at_edge, full)
         code = judged(s, code, row[samples.COMPLEX])
         if code == k.RUNNING and ((walls[0] == OPEN and first == 0) or (walls[1] == OPEN and last == cells)):
             code = k.NO_ROOM  # on the open sea no wave gets to an end
@@ -147,7 +152,11 @@ def advance(s, c, left, right, fx, terms, mesh, walls, watch, thresholds, track)
                 taken = k.next_step(now, clock[k.STOP], stable)
                 dt = type(s.r)(taken)
                 active = (first, last, wet_first, wet_last)
-                step(s, c, left, right, fx, terms, mesh, active, walls[0], dt)
+                if k.friction_is_even(s, clock):
+                    slow_down(s, c, type(s.r)(k.ahead(clock, taken)))
+                acts = type(s.r)(k.friction_time(s, clock, taken))
+                film = may_overtop(s, least1)
+                step(s, c, left, right, fx, terms, mesh, active, walls[0], film, dt, acts)
                 clock[k.NOW] = k.after(now, taken, dt, clock[k.STOP])
     counters[k.SAMPLES] = n
     counters[k.OUTCOME] = code

@@ -28,6 +28,7 @@ from subslide.kernels.active import (
 )
 from subslide.kernels.arrays import BEFORE, GHOSTS, flux_row, row_of, side_row, side_row_turned
 from subslide.kernels.boundary import PERIODIC, join_plane, lets_out
+from subslide.kernels.edge.film import may_overtop
 from subslide.kernels.front import front_position
 from subslide.kernels.gauge import displacement
 from subslide.kernels.hyperbolicity import judged
@@ -39,18 +40,19 @@ from subslide.kernels.planar import (
     fill_ghosts,
     fill_stuck,
     fill_terms,
+    slow_down,
     update,
     water_cell_speeds,
 )
 from subslide.kernels.planar_faces import faces
 from subslide.kernels.radiation import decay, radiate
 from subslide.kernels.reduce import extremes, largest, smallest
-from subslide.kernels.row import edges, tangential, water_edges, water_tangential
+from subslide.kernels.row import edges, film_edges, tangential, water_edges, water_tangential
 
 BLOCK = 16
 """Rows a block: few enough to share among cores, many enough that the row before it costs little."""
 
-PACE, SQUARE2, SHALLOWEST, RIM, MEASURED = range(5)
+PACE, SQUARE2, NEGATIVE, THIN, RIM, MEASURED = range(6)
 """Columns of the scratch `rows`: what each row adds to a sample."""
 
 ROW_COLUMNS = MEASURED + measures.COUNT
@@ -78,7 +80,9 @@ def measure_row(s, c, j, rows, mesh, walls, watch, inside, span, row):
     wet_low, wet_high = grain_span(c.h2, c.u2, c.v2, span[WET_FIRST], span[WET_LAST])
     span[LOW], span[HIGH] = low, high
     span[WET_LOW], span[WET_HIGH] = wet_low, wet_high
-    row[SHALLOWEST], row[SQUARE2], pace = extremes(c.h1, c.h2, c.square2, c.pace, low, high)
+    least1, least2, row[SQUARE2], pace = extremes(c.h1, c.h2, c.square2, c.pace, low, high)
+    row[NEGATIVE] = min(least1, least2)
+    row[THIN] = 1.0 if may_overtop(s, least1) else 0.0
     row[PACE] = max(pace, max(c.pace[0], c.pace[c.pace.shape[0] - 1]))
     row[RIM] = rim_depth(c.h2, j, rows, walls)
     watched = watch.bottom <= j < watch.top
@@ -139,11 +143,13 @@ def survey(s, c, mesh, walls, watch, inside, spans, rows, whole):
 
 
 @inlined
-def row_fluxes(s, f, slow, fast, before, after, shift, step, span, wet):
+def row_fluxes(s, f, slow, fast, before, after, shift, step, span, wet, film):
     """Fill the fluxes through the edges [span) of a row, those of water alone outside [wet); see `row`."""
     start, stop = span
     low, high = wet
     edges(s, f, slow, fast, before, after, shift, step, low, high)
+    if film:
+        film_edges(s, f, before, after, shift, step, low, high)
     tangential(s, f, before, after, shift, step, low, high)
     water_edges(s, f, slow, fast, before, after, shift, step, start, low)
     water_tangential(f, before, after, shift, step, start, low)
@@ -152,7 +158,7 @@ def row_fluxes(s, f, slow, fast, before, after, shift, step, span, wet):
 
 
 @inlined
-def block_fluxes(s, c, left, right, lower, upper, fx, fy, terms, spans, dt, b, blocks):
+def block_fluxes(s, c, left, right, lower, upper, fx, fy, terms, spans, film, dt, b, blocks):
     """Fill the fluxes of block b of the rows; see `fill_fluxes`."""
     ny, nx = fy.f1.shape[0] - 1, fx.f1.shape[1] - 1
     first = b * BLOCK
@@ -172,25 +178,29 @@ def block_fluxes(s, c, left, right, lower, upper, fx, fy, terms, spans, dt, b, b
             fill_stuck(s, c, fx.stuck[j], (n, n), BEFORE, 1, low, high, dt)
             slow, fast = (c.slow_x[n], c.slow_x[n]), (c.fast_x[n], c.fast_x[n])
             before, after = side_row(right, now), side_row(left, now)
-            row_fluxes(s, flux_row(fx, j), slow, fast, before, after, BEFORE, 1, (start, stop), (low, high))
+            row_fluxes(
+                s, flux_row(fx, j), slow, fast, before, after, BEFORE, 1, (start, stop), (low, high), film
+            )
         if j >= first:
             start, stop = joint(spans, p, n, -GHOSTS, -GHOSTS, nx)
             low, high = joint_wet(spans, p, n, -GHOSTS, -GHOSTS, start, stop)
             fill_stuck(s, c, fy.stuck[j], (p, n), GHOSTS, 0, low, high, dt)
             slow, fast = (c.slow_y[p], c.slow_y[n]), (c.fast_y[p], c.fast_y[n])
             before, after = side_row_turned(upper, old), side_row_turned(lower, now)
-            row_fluxes(s, flux_row(fy, j), slow, fast, before, after, GHOSTS, 0, (start, stop), (low, high))
+            row_fluxes(
+                s, flux_row(fy, j), slow, fast, before, after, GHOSTS, 0, (start, stop), (low, high), film
+            )
 
 
 @launch
-def fill_fluxes(s, c, left, right, lower, upper, fx, fy, terms, spans, dt, blocks):
+def fill_fluxes(s, c, left, right, lower, upper, fx, fy, terms, spans, film, dt, blocks):
     """Fill the fluxes of all edges within the rows' spans, a block of rows at a time.
 
     At first order the four sides are the cells' own states. At second order each block has rows of its own for them
     (its first row's faces below belong to the row before), few enough to stay in a core's cache.
     """
     for b in prange(blocks):
-        block_fluxes(s, c, left, right, lower, upper, fx, fy, terms, spans, dt, np.int64(b), blocks)
+        block_fluxes(s, c, left, right, lower, upper, fx, fy, terms, spans, film, dt, np.int64(b), blocks)
 
 
 @launch
@@ -201,10 +211,17 @@ def fill_all_terms(s, c, fx, fy, terms, spans, dt, ny):
 
 
 @launch
-def update_cells(s, c, fx, fy, terms, spans, dt, ny):
-    """Advance the cells within the rows' spans by dt."""
+def update_cells(s, c, fx, fy, terms, spans, dt, acts, ny):
+    """Advance the cells within the rows' spans by dt; see `planar.update`."""
     for j in prange(ny):
-        update(s, c, fx, fy, terms, spans, np.int64(j), dt)
+        update(s, c, fx, fy, terms, spans, np.int64(j), dt, acts)
+
+
+@launch
+def slow_down_rows(s, c, time):
+    """Let friction act for a time on the moving grains of all rows, ghosts too."""
+    for j in prange(c.h2.shape[0]):
+        slow_down(s, row_of(c, np.int64(j)), time)
 
 
 @driver
@@ -253,7 +270,7 @@ def advance_planar(
         n += 1
         at_rim = largest(rows[:, RIM], 0, rows.shape[0])
         at_edge = at_rim >= thresholds[0] or sample[samples.GRAINS] < watch.least_grains
-        shallowest = smallest(rows[:, SHALLOWEST], 0, rows.shape[0])
+        shallowest = smallest(rows[:, NEGATIVE], 0, rows.shape[0])
         square2 = largest(rows[:, SQUARE2], 0, rows.shape[0])
         full = n == track.samples.shape[0]
         code = k.outcome(clock, samples.is_finite(sample), shallowest, square2, at_edge, full)
@@ -266,11 +283,15 @@ def advance_planar(
             else:
                 taken = k.next_step(now, clock[k.STOP], stable)
                 dt = type(s.r)(taken)
-                fill_fluxes(s, c, left, right, lower, upper, fx, fy, terms, spans, dt, blocks)
+                if k.friction_is_even(s, clock):
+                    slow_down_rows(s, c, type(s.r)(k.ahead(clock, taken)))
+                acts = type(s.r)(k.friction_time(s, clock, taken))
+                film = largest(rows[:, THIN], 0, rows.shape[0]) > 0.0
+                fill_fluxes(s, c, left, right, lower, upper, fx, fy, terms, spans, film, dt, blocks)
                 fill_all_terms(s, c, fx, fy, terms, spans, dt, ny)
                 join_plane(terms.keep1, walls)
                 join_plane(terms.keep2, walls)
-                update_cells(s, c, fx, fy, terms, spans, dt, ny)
+                update_cells(s, c, fx, fy, terms, spans, dt, acts, ny)
                 decay(c, walls, rim, watch.level, dt)
                 clock[k.NOW] = k.after(now, taken, dt, clock[k.STOP])
     counters[k.SAMPLES] = n

@@ -7,12 +7,13 @@ they need.
 from subslide.kernels.arrays import BEFORE, GHOSTS, is_general
 from subslide.kernels.boundary import WALL, copied_after, copied_before, join
 from subslide.kernels.edge.stuck import is_stuck
-from subslide.kernels.friction import COULOMB, remaining
+from subslide.kernels.friction import COULOMB
 from subslide.kernels.friction.coulomb import head
 from subslide.kernels.hyperbolicity import RUB, rub
 from subslide.kernels.jit import inlined, part
 from subslide.kernels.positivity import limit, share
 from subslide.kernels.printed import braking
+from subslide.kernels.slowing import first_reach, law_left, left_of
 from subslide.kernels.velocity import velocity
 from subslide.kernels.waves import chosen_bounds, grain_speeds, water_speeds
 
@@ -93,6 +94,14 @@ def outflow_share(f, h, mesh, dry_depth, dt, k):
 
 
 @inlined
+def slow_down(s, c, time):
+    """Let friction act for a time on moving grains, before a step."""
+    for i in range(c.h2.shape[0]):
+        c.u2[i] *= left_of(s, time, c.h2[i], abs(c.u2[i]))
+        c.square2[i] = c.u2[i] * c.u2[i]
+
+
+@inlined
 def fill_terms(s, c, fx, terms, mesh, start, stop, low, high, left, dt):
     """Fill `CellTerms` of cells, of grains in low..high-1; `keep` of ghosts stays 1 unless they stand for others."""
     first, count = part(start, stop)
@@ -124,9 +133,12 @@ def advance_layer(s, h, u, flux, keep, inner, mesh, dt, k):
 
 
 @inlined
-def update(s, c, fx, terms, mesh, start, stop, low, high, dt):
-    """Advance cells by dt, grains in low..high-1: fluxes, pressure, then Coulomb friction."""
-    reach = dt * (type(s.r)(1) - s.r) * s.m
+def update(s, c, fx, terms, mesh, start, stop, low, high, dt, acts):
+    """Advance cells by dt, grains in low..high-1: fluxes, pressure, then friction.
+
+    Friction acts for the time `acts` on grains that moved, on those at rest for dt.
+    """
+    still_reach, reach = first_reach(s, dt), first_reach(s, acts)
     water, grains = (fx.f1, fx.m1, fx.p1), (fx.f2, fx.m2, fx.p2)
     first, count = part(start, stop)
     for m in range(count):
@@ -140,9 +152,10 @@ def update(s, c, fx, terms, mesh, start, stop, low, high, dt):
         h, q = advance_layer(s, c.h2, c.u2, grains, terms.keep2, terms.inner_p2x, mesh, dt, k)
         u = velocity(q, h, s.dry_depth)
         c.h2[k + GHOSTS] = h
-        c.u2[k + GHOSTS] = u * braking(s, reach, abs(u), terms.held[k + GHOSTS])
+        taken = reach if c.square2[k + GHOSTS] > type(dt)(0) else still_reach
+        c.u2[k + GHOSTS] = u * braking(s, taken, abs(u), terms.held[k + GHOSTS])
     if is_general(s) and s.law != COULOMB:
         for i in range(low + GHOSTS, high + GHOSTS):
-            c.u2[i] *= remaining(s, dt, c.h2[i], abs(c.u2[i]))
+            c.u2[i] *= law_left(s, acts if c.square2[i] > type(dt)(0) else dt, c.h2[i], abs(c.u2[i]))
     if is_general(s) and s.treatment == RUB:
         rub(s, c.h1, c.u1, c.v1, c.h2, c.u2, c.v2)

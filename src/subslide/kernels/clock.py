@@ -1,17 +1,55 @@
 """Time: the next step, and why a loop of steps ended."""
 
+import math
+
+import numpy as np
+
 from subslide.kernels.jit import inlined
 
 RUNNING, REACHED, AT_REST, FRONT_AT_EDGE, NOT_FINITE, NEGATIVE, COLLAPSED, FULL, SHEARED, NO_ROOM = range(10)
 
 # Indices into the float64 array `clock`.
-NOW, STOP, REST_FROM, REST_SINCE = range(4)
+NOW, STOP, REST_FROM, REST_SINCE, AHEAD = range(5)
 
 # Indices into the int64 array `counters`.
 SAMPLES, OUTCOME = range(2)
 
 SMALLEST_STEP = 1e-6
 """In units of dx / sqrt(g H2): no wave of a run that can finish is a million times faster than sqrt(g H2)."""
+
+
+def started(stop=0.0):
+    """Return the `clock` of a run that starts now and does not end at rest."""
+    return np.array([0.0, stop, math.inf, -1.0, 0.0])
+
+
+@inlined
+def friction_is_even(s, clock):
+    """Return whether friction has acted as long as transport, at second order: so it is to be put ahead."""
+    return s.order != 1 and clock[AHEAD] == 0.0
+
+
+@inlined
+def ahead(clock, step):
+    """Return half a step, by which friction is from now on ahead of transport, and note it.
+
+    Transport of second order in a step needs velocities of its middle (Strang 1968).
+    """
+    clock[AHEAD] = 0.5 * step
+    return clock[AHEAD]
+
+
+@inlined
+def friction_time(s, clock, step):
+    """Return for how long friction acts at the end of a step: until it is ahead by half a step, or even at STOP."""
+    if s.order == 1:
+        return step
+    wanted = 0.0 if clock[NOW] + step >= clock[STOP] else 0.5 * step
+    acts = max(0.0, step + wanted - clock[AHEAD])
+    clock[AHEAD] += acts - step
+    if wanted == 0.0:
+        clock[AHEAD] = 0.0
+    return acts
 
 
 @inlined

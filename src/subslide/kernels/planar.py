@@ -8,12 +8,13 @@ from subslide.kernels.active import joint, joint_wet
 from subslide.kernels.arrays import GHOSTS, is_general
 from subslide.kernels.boundary import WALL, copied_after, copied_before
 from subslide.kernels.edge.stuck import is_stuck
-from subslide.kernels.friction import COULOMB, remaining
+from subslide.kernels.friction import COULOMB
 from subslide.kernels.friction.coulomb import head
 from subslide.kernels.hyperbolicity import RUB, rub
 from subslide.kernels.jit import inlined, part, unsigned
 from subslide.kernels.positivity import limit, share
 from subslide.kernels.printed import braking
+from subslide.kernels.slowing import first_reach, law_left, left_of
 from subslide.kernels.velocity import norm, velocity
 from subslide.kernels.waves import chosen_bounds, water_speeds
 
@@ -80,6 +81,16 @@ def water_cell_speeds(s, c, start, stop):
         c.slow_y[i] = slow_y
         c.fast_y[i] = fast_y
         c.pace[i] = max(fast_x, -slow_x) + max(fast_y, -slow_y)
+
+
+@inlined
+def slow_down(s, c, time):
+    """Let friction act for a time on the moving grains of a row, before a step."""
+    for i in range(c.h2.shape[0]):
+        factor = left_of(s, time, c.h2[i], norm(c.u2[i], c.v2[i]))
+        c.u2[i] *= factor
+        c.v2[i] *= factor
+        c.square2[i] = c.u2[i] * c.u2[i] + c.v2[i] * c.v2[i]
 
 
 @inlined
@@ -163,9 +174,9 @@ def advance_layer(ratio, h, u, v, x, y, keep, inner_x, inner_y, j, k):
 
 
 @inlined
-def update(s, c, fx, fy, terms, spans, j, dt):
-    """Advance row j, without ghosts, by dt: fluxes, pressure, then Coulomb friction."""
-    reach = dt * (type(s.r)(1) - s.r) * s.m
+def update(s, c, fx, fy, terms, spans, j, dt, acts):
+    """Advance row j, without ghosts, by dt: fluxes, pressure, then friction; see `axial.update`."""
+    still_reach, reach = first_reach(s, dt), first_reach(s, acts)
     ratio = dt / s.dx
     p = j + GHOSTS
     start, stop = joint(spans, p, p, -GHOSTS, -GHOSTS, fy.f1.shape[1])
@@ -191,13 +202,15 @@ def update(s, c, fx, fy, terms, spans, j, dt):
         )
         u = velocity(qx, h, s.dry_depth)
         v = velocity(qy, h, s.dry_depth)
-        factor = braking(s, reach, norm(u, v), terms.held[p, i])
+        taken = reach if c.square2[p, i] > type(dt)(0) else still_reach
+        factor = braking(s, taken, norm(u, v), terms.held[p, i])
         c.h2[p, i] = h
         c.u2[p, i] = factor * u
         c.v2[p, i] = factor * v
     if is_general(s) and s.law != COULOMB:
         for i in range(low + GHOSTS, high + GHOSTS):
-            factor = remaining(s, dt, c.h2[p, i], norm(c.u2[p, i], c.v2[p, i]))
+            time = acts if c.square2[p, i] > type(dt)(0) else dt
+            factor = law_left(s, time, c.h2[p, i], norm(c.u2[p, i], c.v2[p, i]))
             c.u2[p, i] *= factor
             c.v2[p, i] *= factor
     if is_general(s) and s.treatment == RUB:

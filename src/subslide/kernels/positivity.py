@@ -1,5 +1,7 @@
 """Depths stay non-negative by limiting what leaves a cell, never by clipping (clipping makes mass)."""
 
+import numpy as np
+
 from subslide.kernels.jit import inlined
 
 
@@ -7,13 +9,14 @@ from subslide.kernels.jit import inlined
 def share(depth, outflow, margin):
     """Return the fraction of its outflow that a cell can feed within a step (draining time, Bollermann et al. 2011).
 
-    `outflow` is the depth that would leave; `margin` (a small fraction of the depth, left behind) covers round-off.
+    `outflow` is the depth that would leave; `margin` (a small fraction of the depth, left behind) covers round-off, but
+    not that of subnormal numbers: nothing leaves a cell as shallow as the smallest normal one.
 
     Deviation from Eq. (6): what leaves through an edge is cut to this fraction of its donor. IFCP beside a thin cell
     can drain it thousands of times faster than any CFL number allows.
     """
     real = type(depth)
-    available = depth * (real(1) - margin)
+    available = max(real(0), depth - np.finfo(real).tiny) * (real(1) - margin)
     return available / outflow if outflow > available else real(1)
 
 

@@ -1,5 +1,7 @@
 """Largest, smallest and sum of a part of a row."""
 
+import numpy as np
+
 from subslide.kernels.jit import maximum, part, summed
 
 
@@ -25,18 +27,23 @@ def smallest(row, start, stop):
 
 @maximum
 def extremes(h1, h2, square2, pace, start, stop):
-    """Return the smallest of 0 and either depth, the largest |u2|^2 and the largest pace of cells start..stop-1."""
+    """Return the smallest h1, that of 0 and h2, the largest |u2|^2 and the largest pace of cells start..stop-1.
+
+    The smallest h1 is infinite without any.
+    """
     zero = type(h1[0])(0)
+    least = type(h1[0])(np.inf)
     shallowest = zero
     square = zero
     fastest = zero
     first, count = part(start, stop)
     for k in range(count):
         i = k + first
-        shallowest = min(shallowest, min(h1[i], h2[i]))
+        least = min(least, h1[i])
+        shallowest = min(shallowest, h2[i])
         square = max(square, square2[i])
         fastest = max(fastest, pace[i])
-    return shallowest, square, fastest
+    return least, shallowest, square, fastest
 
 
 @summed

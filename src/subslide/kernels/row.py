@@ -6,11 +6,13 @@ row below and the lower ones of the row above (shift GHOSTS, step 0). `slow` and
 after likewise, with the bounds of each cell's wave speeds along the normal.
 """
 
+from subslide.kernels.edge.film import film_fluxes, overtops
 from subslide.kernels.edge.grains import grain_edge_fluxes
 from subslide.kernels.edge.roe_matrix import Normal
+from subslide.kernels.edge.stuck import sees_friction
 from subslide.kernels.edge.two_layers import edge_fluxes
 from subslide.kernels.edge.water import water_edge_fluxes
-from subslide.kernels.jit import inlined, part, unsigned
+from subslide.kernels.jit import inlined, maximum, part, unsigned
 from subslide.kernels.positivity import donor
 from subslide.kernels.printed import carried
 
@@ -35,6 +37,35 @@ def edges(s, f, slow, fast, before, after, shift, step, start, stop):
             Normal(after.h1[j], after.u1[j], after.h2[j], after.u2[j]),
             after.eta[j] - before.eta[i],
         )
+
+
+@maximum
+def highest_step(stuck, before, after, shift, step, start, stop):
+    """Return the most by which a step of grains at rest overtops the water beside it; 0 if none does."""
+    real = type(stuck[0])
+    most = real(0)
+    first, count = part(start, stop)
+    for m in range(count):
+        k = unsigned(m + first)
+        i = unsigned(m + first + shift)
+        j = unsigned(m + first + shift + step)
+        most = max(most, overtops(stuck[k], before.h1[i], before.h2[i], after.h1[j], after.h2[j]))
+    return most
+
+
+@inlined
+def film_edges(s, f, before, after, shift, step, start, stop):
+    """Fill the water's fluxes anew where it is thin over steps of grains at rest: few edges, of few runs."""
+    zero = type(s.r)(0)
+    if not sees_friction(s) or highest_step(f.stuck, before, after, shift, step, start, stop) <= zero:
+        return
+    for k in range(start, stop):
+        i = k + shift
+        j = i + step
+        if overtops(f.stuck[k], before.h1[i], before.h2[i], after.h1[j], after.h2[j]) > zero:
+            f.f1[k], f.m1[k], f.p1[k] = film_fluxes(
+                s.scheme, before.eta[i], before.u1[i], before.h2[i], after.eta[j], after.u1[j], after.h2[j]
+            )
 
 
 @inlined

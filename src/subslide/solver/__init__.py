@@ -97,7 +97,7 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
     times = [t for t in point.profile_times if t <= end]
     model = build(point, box, DRY_DEPTH)
     room = room_for_waves(point, model)
-    clock = np.array([0.0, 0.0, math.inf, -1.0])
+    clock = k.started()
     if point.t_end is None:
         clock[k.REST_FROM] = max(times[-1] / time_scale if times else 0.0, np.nextafter(0.0, 1.0))
     warm_up(model)

@@ -1,6 +1,5 @@
 """The time loop, in segments from one snapshot to the next."""
 
-import math
 import os
 import sys
 import threading
@@ -56,7 +55,7 @@ def start_threads(threads: int) -> None:
 
 def warm_up(model: Model) -> None:
     """Compile the time loop (or load it) with a segment of no length, which changes nothing but derived values."""
-    track = Track(np.array([0.0, 0.0, math.inf, -1.0]), np.empty((2, samples.COLUMNS)), np.zeros(2, np.int64))
+    track = Track(k.started(), np.empty((2, samples.COLUMNS)), np.zeros(2, np.int64))
     code = type(model), type(model.settings), type(model.level)
     if code in _loaded:
         model.advance(thresholds(model), track)

@@ -31,7 +31,7 @@ class Jump(NamedTuple):
 
 
 class RoeMatrix(NamedTuple):
-    """A_ij by its entries: Roe's velocities, mean depths, h_k - u_k^2 and r h2."""
+    """A_ij by its entries: Roe's velocities, mean depths, h_k - u_k^2 and r h2; and c_i + c_j of each layer alone."""
 
     u1: float
     k1: float
@@ -40,6 +40,8 @@ class RoeMatrix(NamedTuple):
     k2: float
     h2: float
     rh2: float
+    pace1: float
+    pace2: float
 
 
 @inlined
@@ -56,9 +58,18 @@ def roe_matrix(r, i, j):
     half = type(r)(0.5)
     h1 = half * (i.h1 + j.h1)
     h2 = half * (i.h2 + j.h2)
-    u1 = roe_velocity(math.sqrt(i.h1), i.u1, math.sqrt(j.h1), j.u1)
-    u2 = roe_velocity(math.sqrt(i.h2), i.u2, math.sqrt(j.h2), j.u2)
-    return RoeMatrix(u1, h1 - u1 * u1, h1, u2, h2 - u2 * u2, h2, r * h2)
+    c1_i, c1_j = math.sqrt(i.h1), math.sqrt(j.h1)
+    c2_i, c2_j = math.sqrt(i.h2), math.sqrt(j.h2)
+    u1 = roe_velocity(c1_i, i.u1, c1_j, j.u1)
+    u2 = roe_velocity(c2_i, i.u2, c2_j, j.u2)
+    pace1, pace2 = c1_i + c1_j, math.sqrt(type(r)(1) - r) * (c2_i + c2_j)
+    return RoeMatrix(u1, h1 - u1 * u1, h1, u2, h2 - u2 * u2, h2, r * h2, pace1, pace2)
+
+
+@inlined
+def parts(a, i, j):
+    """Return whether a layer parts faster than it can fill the gap: u_j - u_i > c_i + c_j, with c2^2 = (1-r) h2."""
+    return max(j.u1 - i.u1 - a.pace1, j.u2 - i.u2 - a.pace2) > type(a.u1)(0)
 
 
 @inlined

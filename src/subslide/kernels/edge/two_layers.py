@@ -2,11 +2,19 @@
 
 from subslide.kernels.arrays import is_general
 from subslide.kernels.edge.front import front_fluxes, runs_onto_dry_bed
-from subslide.kernels.edge.roe_matrix import Jump, cubic_polynomial, jump, polynomial, roe_matrix, times
-from subslide.kernels.edge.stuck import sees_friction
+from subslide.kernels.edge.roe_matrix import (
+    Jump,
+    cubic_polynomial,
+    jump,
+    parts,
+    polynomial,
+    roe_matrix,
+    times,
+)
+from subslide.kernels.edge.stuck import by_weight, sees_friction
 from subslide.kernels.hyperbolicity import takes_hll
 from subslide.kernels.jit import inlined
-from subslide.kernels.viscosity import alpha, cubic, hll, is_cubic
+from subslide.kernels.viscosity import IFCP, alpha, cubic, hll, is_cubic
 from subslide.kernels.waves import edge_waves
 
 
@@ -25,6 +33,9 @@ def edge_fluxes(s, stuck, slowest, fastest, i, j, d_eta):
     Deviation from Eq. (8): printed is Q (d + A^-1 S) at every edge. With S on the right of Eq. (1) the sign is minus,
     and A^-1 S takes the distance d_ij. It is taken in closed form (see `edge.stuck`), where friction holds the grains:
     on moving ones it would drain thin cells.
+
+    Deviation from the wet/dry case under Eq. (12): HLL is taken also where a layer parts faster than its two sound
+    speeds. Linearised about the mean of -u and u, the parabola of IFCP vanishes there, and the cells run dry.
     """
     real = type(d_eta)
     half = real(0.5)
@@ -33,8 +44,9 @@ def edge_fluxes(s, stuck, slowest, fastest, i, j, d_eta):
     q2_i, q2_j = i.h2 * i.u2, j.h2 * j.u2
     a = roe_matrix(s.r, i, j)
     waves = edge_waves(s, a, slowest, fastest)
-    dry = min(min(i.h1, j.h1), min(i.h2, j.h2)) <= s.dry_depth
-    plain = takes_hll(s, dry, a.h1, a.u1, a.h2, a.u2)
+    torn = parts(a, i, j)
+    dry = torn or min(min(i.h1, j.h1), min(i.h2, j.h2)) <= s.dry_depth
+    plain = (torn and s.scheme == IFCP) or takes_hll(s, dry, a.h1, a.u1, a.h2, a.u2)
     coefficients = alpha(s, waves, dry)
     if plain:
         coefficients = hll(waves, dry)
@@ -66,4 +78,6 @@ def edge_fluxes(s, stuck, slowest, fastest, i, j, d_eta):
 
     f1 = half * (q1_i + q1_j - lost1)
     m1 = half * (q1_i * i.u1 + q1_j * j.u1 - lost_q1)
-    return f1, m1, a.h1 * d_eta, f2, m2, a.h2 * (s.r * d.h1 + d.h2)
+    d_head = s.r * d.h1 + d.h2
+    m2 = m2 + by_weight(i.h2, j.h2, d_head) if holds else m2
+    return f1, m1, a.h1 * d_eta, f2, m2, a.h2 * d_head

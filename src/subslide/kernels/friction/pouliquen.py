@@ -22,5 +22,7 @@ def remaining(s, dt, h2, speed):
     if speed <= real(0):
         return real(1)
     reach = dt * (real(1) - s.r) * s.law_1
-    change = reach * math.exp(-s.law_2 * h2 * math.sqrt(h2) / speed)
-    return max(real(0), real(1) - change / speed)
+    exponent = min(s.law_2 * h2 * math.sqrt(h2) / speed, real(80))
+    change = reach * math.exp(-exponent) / speed
+    change /= real(1) + real(0.5) * change * exponent  # as fast as at half the change, by the slope
+    return max(real(0), real(1) - change)

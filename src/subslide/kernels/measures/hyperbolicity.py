@@ -1,5 +1,7 @@
 """How many cells lost hyperbolicity, and how near the others are to losing it."""
 
+import numpy as np
+
 from subslide.kernels.active import wet_span
 from subslide.kernels.arrays import GHOSTS
 from subslide.kernels.jit import inlined, part, summed
@@ -34,10 +36,12 @@ def row_hyperbolicity(h1, u1, v1, h2, u2, v2, ratio, r, dry_depth, margin, start
 
     Cells that are wet in both layers count. The margin of a cell is its discriminant over that without shear, each
     scaled to depths and shear of order 1: 1 without shear, 0 where two speeds meet, negative where they are complex.
+    Without the water's weight, at r = 0, no speed can be lost, and the margin is 1; speeds that meet there are no sign.
     `ratio` is scratch, as long as the row: a loop that finds a minimum does not vectorise, so it gets one of its own.
     """
     one = type(r)(1)
     zero = type(r)(0)
+    least = margin if r > zero else type(r)(np.inf)
     lost = 0.0
     first, count = part(start, stop)
     for k in range(count):
@@ -47,7 +51,7 @@ def row_hyperbolicity(h1, u1, v1, h2, u2, v2, ratio, r, dry_depth, margin, start
         wet = min(h1[i], h2[i]) > dry_depth
         sheared = discriminant(h1[i], h2[i], du * du + dv * dv, r)
         still = discriminant_without_shear(h1[i], h2[i], r)
-        judged = (still if wet else zero) > margin
+        judged = (still if wet else zero) > least
         share = sheared / (still if judged else one)
         ratio[i] = share if judged else one
         lost += 1.0 if (sheared if wet else one) < -margin else 0.0
