@@ -61,6 +61,7 @@ def test_the_schemes_with_a_front_are_those_of_the_kernels():
         ("front_flux", "hll", {"scheme": "hll"}),
         ("front_flux", "hll", {"scheme": "ifcp"}),
         ("front_flux", "hll", {"scheme": "rusanov", "model": "one-layer", "r": 0.0}),
+        ("scheme", "roe", {"model": "one-layer", "r": 0.0}),
         ("wave_speeds", "approximate", {"model": "one-layer", "r": 0.0}),
         ("treatment", "hll", {"scheme": "hll", "a_H": 0.5, "r": 0.6, "delta": 20.0, "cells": 400}),
         ("treatment", "friction", {"r": 0.0}),
@@ -98,6 +99,15 @@ def test_what_has_an_effect_is_not_said_to_have_none(values):
     key = next(key for key in ("xi", "delta_2", *values) if key in values)
     plain = point.with_values(**{key: default_of(key)})
     assert solve(point).energy[-1] != solve(plain).energy[-1]
+
+
+def test_ifcp_of_grains_alone_is_hll():
+    one, two = (
+        solve(Point(scheme=s, model="one-layer", r=0.0, cells=60, t_end=0.2)) for s in ("ifcp", "hll")
+    )
+    assert notes.notes([one.point])
+    assert not notes.notes([two.point])
+    np.testing.assert_array_equal(one.energy, two.energy)
 
 
 def test_a_sweep_says_it_once():

@@ -211,8 +211,8 @@ ENTRIES: dict[str, Entry] = {
     "scheme": choice(METHOD, "Riemann solver", "ifcph", names.SCHEMES, names.best_first),
     "front_flux": choice(
         METHOD,
-        "flux of grains onto a dry bed in ifcph, roe and the one-layer model: exact (the fan of a dam break of grains"
-        " alone), or the HLL flux, in two layers with the speeds of the whole system (as in the paper)",
+        "flux of grains onto a dry bed in ifcph and roe, of the one-layer model too: exact (the fan of a dam break of"
+        " grains alone), or the HLL flux, in two layers with the speeds of the whole system (as in the paper)",
         "exact",
         names.FRONT_FLUXES,
     ),

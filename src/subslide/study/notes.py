@@ -92,6 +92,11 @@ UNHEARD = (
         lambda point: point.scheme not in FRONTS,
         f"only scheme: {' and '.join(FRONTS)} have an exact flux; the others take HLL's, or Rusanov's, at any front",
     ),
+    Unheard(
+        "scheme",
+        lambda point: _alone(point) and point.scheme in ("ifcp", "roe"),
+        "grains alone have two waves, so that ifcp is hll there, and roe is ifcph",
+    ),
     Unheard("wave_speeds", _alone, "grains alone have exact speeds in closed form"),
     Unheard(
         "treatment",
