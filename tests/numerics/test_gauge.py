@@ -27,7 +27,7 @@ def test_one_layer_has_no_gauge():
 
 def test_the_peak_is_the_largest_mean_up_or_down():
     point = Point()
-    span = gauge.SHARE * point.radius / point.wave_speed
+    span = point.radius / point.wave_speed
     time = np.linspace(0, 4 * span, 401)
     trough = np.where((time > 2 * span) & (time < 2.5 * span), -1.0, 0.2)
     value, when = gauge.peak(point, time, trough)
