@@ -53,7 +53,7 @@ def test_momentum_changes_by_the_pressure_at_the_ends_alone(scheme, order, dry):
     x = (edges[1:] + edges[:-1]) / 2
     h2 = np.where((x > -1) & (x < 0.5), 1.0, 0.0 if dry else 0.2) + np.where((x > 0.7) & (x < 1), 0.3, 0.0)
     h1 = np.where(x < 0.2, 1.6, 2.0) - h2
-    options = {"scheme": scheme, "order": order, "r": r, "m": 0.0, "walls": (False, False)}
+    options = {"scheme": scheme, "order": order, "r": r, "m": 0.0, "walls": (3, 3)}
     model = axial(edges, h1, 0.05, h2, 0.0, level=2.0, **options)
 
     def pressure(end):
