@@ -33,7 +33,7 @@ def error(dx, order, layers):
         m=0.0,
         order=order,
         radial=True,
-        walls=(True, False),
+        walls=(True, 3),
     )
     advance(model, stop=END)
     exact = ring_mean(edges, END)

@@ -53,7 +53,7 @@ def test_nor_at_any_point(a_H, a_2, r, cells):
 
 @pytest.mark.parametrize("order", [1, 2])
 def test_a_line_is_lengthened_at_both_ends_to_the_same_bits(order):
-    dx, n = 0.1, 16
+    dx, n = 0.125, 16
 
     def sea(half):
         edges = np.arange(-half, half + 1) * dx

@@ -127,4 +127,4 @@ def test_the_default_numerics_are_stable_on_the_corners_of_sensitivity(a_H, r):
         for delta in (20, 40):
             run = solve(Point(a_H=float(a_H), a_2=a_2, r=float(r), delta=float(delta), cells=100))
             assert run.status in FINISHED, run.status_detail
-            assert run.box_half_width >= run.L_f[0]
+            assert run.x[-1] >= run.L_f[0]

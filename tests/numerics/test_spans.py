@@ -28,7 +28,10 @@ SPEEDS = st.floats(-2.0, 2.0)
 
 def advanced(model, order, dtype, *, everywhere=False, **values):
     """Return a model of a column after 40 steps; `everywhere`: nothing counts as still."""
-    point = Point(model=model, order=order, dtype=dtype, cells=100, **values)
+    boundary = (
+        "open" if model in ("quarter", "plane") else "paper"
+    )  # a sea where nothing is still has no room
+    point = Point(model=model, order=order, dtype=dtype, cells=100, boundary=boundary, **values)
     found = build(point, 50, DRY_DEPTH)
     if everywhere:
         real = type(found.settings.r)

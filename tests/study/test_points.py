@@ -66,6 +66,12 @@ def test_every_key_enters_the_id(key):
     assert Point().with_values(**{key: other(key)}).id != Point().id
 
 
+def test_the_open_sea_has_not_the_ids_of_the_zero_gradient():
+    """What `open` was before is `paper`: the old id of a run with it is no run's now."""
+    old = "p51850e7838c3"
+    assert old not in {Point(boundary=boundary).id for boundary in schema.properties()["boundary"]["enum"]}
+
+
 def test_how_a_number_is_written_does_not_matter():
     written = [config.make_point({"a_H": 1, "cells": 100}), config.make_point({"cells": 100.0, "a_H": 1.0})]
     assert written[0].id == written[1].id

@@ -96,7 +96,7 @@ def test_options_make_the_id_and_how_they_are_written_does_not():
     assert point(elongation=2).id == point(angle=0, elongation=2.0).id == point(angle=-0.0, elongation=2).id
     assert point().id == point(elongation=1.5).id
     assert len({point().id, point(elongation=2).id, point(angle=30).id}) == 3
-    again = points.from_dict(json.loads(points.canonical(point(angle=30))))
+    again = points.from_dict(json.loads(json.dumps(points.to_dict(point(angle=30)))))
     assert again == point(angle=30)
 
 

@@ -39,6 +39,8 @@ BOXES = (1.0, 1.5, 2.25, 3.375)
 SEA = 0.25
 """Time that a cell of the open sea beyond the box takes, over that of one in it, by the waves' way at the end: it has
 no grains, and is at rest until they come."""
+FILM = 1.1
+"""Way of the thinnest grains that a profile shows over that of their front."""
 MOST_AT_SEA = 4e6
 """Cells to which the solver lengthens a sea at most."""
 
@@ -181,7 +183,7 @@ def _size(point: Point) -> _Size:
     steps = end * math.sqrt(point.scaled_level) / (point.cfl * point.scaled_dx) * (1 + planar) + 1
     if choice.at_sea(point):
         far = min(wide * point.wave_reach(end * point.time_scale) / point.scaled_dx, MOST_AT_SEA)
-        kept = wide * max(half, min(reach / point.scaled_dx, BOXES[-1] * half))
+        kept = wide * max(half, min(FILM * reach / point.scaled_dx, BOXES[-1] * half))
         return _Size(kept + SEA * max(0.0, far - kept), 2 * max(far, kept), kept, steps, planar)
     boxes = [width for n, width in enumerate(BOXES) if n == 0 or BOXES[n - 1] * point.half_box < reach]
     rows = [wide * width * half for width in boxes]
