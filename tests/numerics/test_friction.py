@@ -44,7 +44,7 @@ def pouliquen_speed(t, rise, depths, h2):
 
 
 def ratios(error):
-    """Ratios of the errors at CFL 0.4, 0.2 and 0.1: friction is taken last in a step, so its order is one."""
+    """Ratios of the errors at CFL 0.4, 0.2 and 0.1: friction is split from transport evenly, so its order is two."""
     errors = np.array([abs(error(cfl)) for cfl in (0.4, 0.2, 0.1)])
     assert errors[0] < 0.02 * U0
     return errors[:-1] / errors[1:]
@@ -60,7 +60,7 @@ def test_voellmy_slows_a_slab_as_the_closed_form_says(h2):
     turbulence = 0.3
     law = {"law": LAWS["voellmy"], "law_1": turbulence, "h2": h2}
     exact = voellmy_speed(1.0, turbulence / h2)
-    np.testing.assert_allclose(ratios(lambda cfl: slab(1.0, cfl, **law) - exact), 2, atol=0.3)
+    np.testing.assert_allclose(ratios(lambda cfl: slab(1.0, cfl, **law) - exact), 4, atol=0.6)
 
 
 def test_turbulence_alone_is_exact():
@@ -73,14 +73,14 @@ def test_pouliquen_slows_a_slab_as_its_equation_says(h2):
     rise, depths = 0.4, 1.5
     law = {"law": LAWS["pouliquen"], "law_1": rise, "law_2": depths, "h2": h2}
     exact = pouliquen_speed(1.0, rise, depths, h2)
-    np.testing.assert_allclose(ratios(lambda cfl: slab(1.0, cfl, **law) - exact), 2, atol=0.3)
+    np.testing.assert_allclose(ratios(lambda cfl: slab(1.0, cfl, **law) - exact), 4, atol=0.6)
 
 
 def test_laws_become_coulombs_where_their_own_part_vanishes():
     coulomb = slab(1.0)
-    assert slab(1.0, law=LAWS["voellmy"], law_1=0.0) == coulomb
-    assert slab(1.0, law=LAWS["pouliquen"], law_1=0.0, law_2=1.0) == coulomb
-    assert slab(1.0, law=LAWS["pouliquen"], law_1=0.4, law_2=1e6) == coulomb
+    assert slab(1.0, law=LAWS["voellmy"], law_1=0.0) == pytest.approx(coulomb, rel=1e-12)
+    assert slab(1.0, law=LAWS["pouliquen"], law_1=0.0, law_2=1.0) == pytest.approx(coulomb, rel=1e-12)
+    assert slab(1.0, law=LAWS["pouliquen"], law_1=0.4, law_2=1e6) == pytest.approx(coulomb, rel=1e-12)
     fast = slab(1.0, law=LAWS["pouliquen"], law_1=0.4, law_2=0.0)
     assert fast == pytest.approx(slab(1.0, m=MU + 0.4), rel=1e-12)
 

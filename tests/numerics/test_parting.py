@@ -14,8 +14,8 @@ from subslide.study.config import make_point
 @pytest.mark.parametrize("scheme", SCHEMES)
 def test_a_slab_tears_off_a_wall(scheme, order):
     for speed, a_H, r in itertools.product((0.5, 1, 1.5, 2, 3), (0.5, 1, 4), (0, 0.4, 0.8)):
-        if scheme == "roe" and speed > 2 * critical_shear(a_H, 1.0, r):
-            continue  # the answer grows without end, and this solver resolves it
+        if speed > 2.5 * critical_shear(a_H, 1.0, r):
+            continue  # waves between the layers grow without end, and leave films over what piles up
         point = make_point(
             {
                 "scene": "slide",

@@ -219,7 +219,7 @@ def update_cells(s, c, fx, fy, terms, spans, dt, acts, ny):
 
 @launch
 def slow_down_rows(s, c, time):
-    """Let friction act for a time on the moving grains of all rows, ghosts too."""
+    """Apply friction to the moving grains of all rows, ghosts too, for a time."""
     for j in prange(c.h2.shape[0]):
         slow_down(s, row_of(c, np.int64(j)), time)
 

@@ -85,7 +85,7 @@ def water_cell_speeds(s, c, start, stop):
 
 @inlined
 def slow_down(s, c, time):
-    """Let friction act for a time on the moving grains of a row, before a step."""
+    """Apply friction to the moving grains of a row for a time, before a step."""
     for i in range(c.h2.shape[0]):
         factor = left_of(s, time, c.h2[i], norm(c.u2[i], c.v2[i]))
         c.u2[i] *= factor
