@@ -268,8 +268,9 @@ ENTRIES: dict[str, Entry] = {
     ),
     "boundary": choice(
         SCENE,
-        "edge of the box: open, paper (zero gradient at the end of the paper's box, as the paper's own runs may have"
-        " had), wall, or periodic (on a line or in the whole plane); a front may end at a wall, the others give way",
+        "edge of the box: open (a sea that no wave comes back from: without an end on a radius or line, in the plane an"
+        " edge that lets round waves out), paper (zero gradient at the end of the paper's box, or of a larger one that"
+        " the front does not reach), wall, or periodic (on a line or in the whole plane)",
         "open",
         names.BOUNDARIES,
     ),
