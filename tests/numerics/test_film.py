@@ -56,7 +56,7 @@ def test_films_end_well_and_gain_no_energy(count):
 @pytest.mark.parametrize("scheme", SCHEMES)
 @pytest.mark.parametrize("radial", [False, True])
 def test_a_pile_that_stands_out_of_still_water_keeps_still(scheme, order, radial):
-    """To the bit; at second order the shore's cell has a slope of its own, and its water swings by a part of its depth."""
+    """To the bit; at second order the cell at the shore has a slope, and its water swings by a part of its depth."""
     edges = np.arange(61) * 0.05
     h2 = np.maximum(1.0 - 0.02 * np.arange(60), 0.1)
     h1 = np.maximum(0.0, 0.7 - h2)

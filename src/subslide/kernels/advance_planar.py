@@ -219,7 +219,7 @@ def update_cells(s, c, fx, fy, terms, spans, dt, acts, ny):
 
 @launch
 def slow_down_rows(s, c, time):
-    """Apply friction to the moving grains of all rows, ghosts too, for a time."""
+    """Advance the moving grains of all rows, ghosts too, by friction alone for a time."""
     for j in prange(c.h2.shape[0]):
         slow_down(s, row_of(c, np.int64(j)), time)
 

@@ -95,7 +95,7 @@ def outflow_share(f, h, mesh, dry_depth, dt, k):
 
 @inlined
 def slow_down(s, c, time):
-    """Apply friction to moving grains for a time, before a step."""
+    """Advance moving grains by friction alone for a time, before a step."""
     for i in range(c.h2.shape[0]):
         c.u2[i] *= left_of(s, time, c.h2[i], abs(c.u2[i]))
         c.square2[i] = c.u2[i] * c.u2[i]

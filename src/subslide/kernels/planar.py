@@ -85,7 +85,7 @@ def water_cell_speeds(s, c, start, stop):
 
 @inlined
 def slow_down(s, c, time):
-    """Apply friction to the moving grains of a row for a time, before a step."""
+    """Advance the moving grains of a row by friction alone for a time, before a step."""
     for i in range(c.h2.shape[0]):
         factor = left_of(s, time, c.h2[i], norm(c.u2[i], c.v2[i]))
         c.u2[i] *= factor

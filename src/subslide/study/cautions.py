@@ -37,27 +37,11 @@ class Region(NamedTuple):
     seen: str
 
 
-FILM = 0.2
-"""Depth of water over the column, over its height, below which a step of grains at rest may drive it."""
-HELD = (0.6, 4.0)
-"""Range of tan(delta)/a_2 in which some of the column stays at rest with a steep edge."""
 LEAST_FRICTION = 0.08
 """tan(delta)/a_2 below which grains run further than the largest box reaches."""
 FLOATING = 0.995
 """Density ratio above which waves between the layers are so slow and lasting that errors pile up."""
 LARGEST_CFL = 1.0
-
-
-def _under_film(point: Point) -> bool:
-    """Return whether a film of water lies over a column of which some stays at rest."""
-    return (
-        point.scene in ("cylinder", "columns", "ellipse")
-        and point.model != "one-layer"
-        and point.quantities == "all"
-        and point.a_H < FILM
-        and HELD[0] <= point.friction_number <= HELD[1]
-        and point.r < 0.9
-    )
 
 
 def _far(point: Point) -> bool:
@@ -85,16 +69,6 @@ def _sliding(point: Point) -> bool:
 
 
 REGIONS = (
-    Region(
-        "film of water",
-        _under_film,
-        f"below a_H = {FILM:g}, with tan(delta)/a_2 from {HELD[0]:g} to {HELD[1]:g}, the film runs dry at the edge of"
-        " grains at rest: runs may gain energy or end as step_collapse",
-        f"a_H of {FILM:g} or more; or r: 0 with quantities: grains",
-        {"a_H": 0.0215, "delta": 40, "cells": 100, "boundary": "wall"},
-        {"a_H": 0.3},
-        "stability, maps of a_H by r and by delta",
-    ),
     Region(
         "Courant number",
         lambda point: point.cfl > LARGEST_CFL,

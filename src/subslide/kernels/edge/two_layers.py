@@ -15,6 +15,7 @@ from subslide.kernels.edge.stuck import by_weight, sees_friction
 from subslide.kernels.hyperbolicity import takes_hll
 from subslide.kernels.jit import inlined
 from subslide.kernels.viscosity import IFCP, alpha, cubic, hll, is_cubic
+from subslide.kernels.viscosity.rusanov import largest
 from subslide.kernels.waves import edge_waves
 
 
@@ -34,8 +35,9 @@ def edge_fluxes(s, stuck, slowest, fastest, i, j, d_eta):
     and A^-1 S takes the distance d_ij. It is taken in closed form (see `edge.stuck`), where friction holds the grains:
     on moving ones it would drain thin cells.
 
-    Deviation from the wet/dry case under Eq. (12): HLL is taken also where a layer parts faster than its two sound
-    speeds. Linearised about the mean of -u and u, the parabola of IFCP vanishes there, and the cells run dry.
+    Deviation from the wet/dry case under Eq. (12): HLL, with IFCP Rusanov's constant, is taken also where a layer parts
+    faster than its two sound speeds. Linearised about the mean of -u and u, the parabola of IFCP vanishes there, and
+    the cells run dry.
     """
     real = type(d_eta)
     half = real(0.5)
@@ -46,8 +48,10 @@ def edge_fluxes(s, stuck, slowest, fastest, i, j, d_eta):
     waves = edge_waves(s, a, slowest, fastest)
     torn = parts(a, i, j)
     dry = torn or min(min(i.h1, j.h1), min(i.h2, j.h2)) <= s.dry_depth
-    plain = (torn and s.scheme == IFCP) or takes_hll(s, dry, a.h1, a.u1, a.h2, a.u2)
+    plain = takes_hll(s, dry, a.h1, a.u1, a.h2, a.u2)
     coefficients = alpha(s, waves, dry)
+    if torn and s.scheme == IFCP:  # the solver that knows no dry edge; without the division of HLL
+        coefficients = largest(waves.s_l, waves.s_r), zero, zero
     if plain:
         coefficients = hll(waves, dry)
 
