@@ -25,6 +25,9 @@ REST_CAP = 60.0
 GROWTH = 1.5
 """A box whose edge the front reaches grows by GROWTH, up to LARGEST_BOX times the paper's; the sea has no such edge."""
 
+SPARE = 32
+"""Cells that a sea starts with beyond where its waves may come: steps look some vectors ahead."""
+
 ENDED = {
     k.AT_REST: "ok",
     k.FRONT_AT_EDGE: "left_domain",
@@ -60,18 +63,26 @@ def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | 
     """
     check_point(point)
     start_threads(threads)
-    box = point.half_cells
-    if (
-        choice.at_sea(point) and choice.of(point).model != "one-layer"
-    ):  # room from the start costs less than more later
-        last = max(point.profile_times, default=0.0) if point.t_end is None else point.t_end
-        box = math.ceil(min(max(box, point.wave_reach(last) / point.scaled_dx), LARGEST_BOX * box))
+    box = first_box(point)
     while True:
         run = attempt(point, box, progress)
         grown = math.ceil(box * GROWTH)
         if run.status != "left_domain" or choice.at_sea(point) or grown > LARGEST_BOX * point.half_cells:
             return run
         box = grown
+
+
+def first_box(point: Point) -> int:
+    """Return the cells from the axis with which a run starts: of an open sea with room for its waves.
+
+    Still cells are free, and room from the start costs less than more of it later, which no answer depends on.
+    """
+    box = point.half_cells
+    if not choice.at_sea(point) or choice.of(point).model == "one-layer":
+        return box
+    last = max(point.profile_times, default=0.0) if point.t_end is None else point.t_end
+    room = 1.1 * point.wave_reach(last) / point.scaled_dx + SPARE
+    return math.ceil(min(max(box, room), LARGEST_BOX * box + SPARE))
 
 
 def attempt(point: Point, box: int, progress: Callable[[float], object] | None) -> Run:

@@ -172,9 +172,10 @@ def shared(model: Model, snapshots: list[Snapshot]) -> tuple[np.ndarray, list[di
     for snapshot in snapshots:
         before = int(np.searchsorted(x, snapshot.x[0]))
         ends = before, len(x) - before - len(snapshot.x)
-        profiles.append(
-            {name: np.pad(values, ends, mode="edge") for name, values in snapshot.profile.items()}
-        )
+        profile = snapshot.profile
+        if any(ends):
+            profile = {name: np.pad(values, ends, mode="edge") for name, values in profile.items()}
+        profiles.append(profile)
         kept |= profiles[-1]["h2"] > model.settings.dry_depth
     first, last = np.flatnonzero(kept)[[0, -1]]
     part = slice(first, last + 1)
