@@ -40,5 +40,5 @@ def grain_edge_fluxes(s, stuck, h_i, u_i, h_j, u_j):
     front = runs_onto_dry_bed(s, stuck, h_i, h_j)
     f_front, m_front = front_fluxes(zero, h_i, u_i, h_j, u_j)
     f = f_front if front else f
-    m = m + by_weight(h_i, h_j, h_j - h_i) if holds else m
+    m = by_weight(h_i, h_j, h_j - h_i) if holds else m
     return (zero if holds else f), (m_front if front else m), h * (h_j - h_i)

@@ -83,5 +83,5 @@ def edge_fluxes(s, stuck, slowest, fastest, i, j, d_eta):
     f1 = half * (q1_i + q1_j - lost1)
     m1 = half * (q1_i * i.u1 + q1_j * j.u1 - lost_q1)
     d_head = s.r * d.h1 + d.h2
-    m2 = m2 + by_weight(i.h2, j.h2, d_head) if holds else m2
+    m2 = by_weight(i.h2, j.h2, d_head) if holds else m2  # nor does their momentum
     return f1, m1, a.h1 * d_eta, f2, m2, a.h2 * d_head
