@@ -25,10 +25,10 @@ NODES = (200, 400, 800, 1600)
 """Cells of the grids that were calibrated; between them bands are linear in the logarithm, beyond them the nearest."""
 
 CELLS: dict[tuple[int, bool], tuple[tuple[float, ...], ...]] = {
-    (2, False): ((3.1, 2.3, 2.2, 1.7), (1.9, 0.8, 0.5, 0.5), (1.1, 0.5, 0.4, 0.3)),
-    (2, True): ((2.4, 1.3, 1.4, 1.6), (1.3, 0.8, 0.85, 0.95), (0.9, 0.5, 0.55, 0.55)),
-    (1, False): ((7.9, 11, 14.5, 18), (4, 5.3, 7, 8.5), (2.2, 3, 3.4, 3.4)),
-    (1, True): ((9.3, 12, 14, 16.5), (4, 5.2, 6, 7.2), (2.6, 3.3, 4, 5)),
+    (2, False): ((3.0, 2.15, 2.25, 1.9), (1.8, 0.85, 0.45, 0.45), (1.1, 0.4, 0.5, 0.25)),
+    (2, True): ((2.15, 1.2, 1.4, 1.45), (1.2, 0.65, 0.75, 0.65), (0.85, 0.5, 0.6, 0.55)),
+    (1, False): ((7.2, 10.1, 13.3, 16.55), (3.6, 4.9, 6.4, 7.85), (2.05, 2.75, 3.3, 3.05)),
+    (1, True): ((8.55, 11.0, 13.1, 14.95), (3.8, 4.6, 5.1, 6.3), (2.3, 2.8, 3.4, 4.2)),
 }
 """Half-width of the bands of fronts, in cells, by order of the scheme and whether the front has arrived: a row for each
 threshold of `FRONT_LABELS`, a number for each node."""
@@ -42,7 +42,7 @@ class Wave(NamedTuple):
     cell: float
 
 
-WAVES = {2: Wave(3.0, 0.75, 3.0), 1: Wave(4.0, 2.0, 10.0)}
+WAVES = {2: Wave(3.5, 1.0, 4.0), 1: Wave(6.0, 3.0, 13.0)}
 """By order of the scheme."""
 
 
