@@ -33,6 +33,13 @@ def test_it_is_missing_while_grains_move():
     assert np.isfinite(run.L_f).all()
 
 
+def test_a_column_that_stands_has_arrived_at_its_side_from_the_start():
+    run = solve(Point(a_2=0.02, delta=30.0, cells=100, t_end=0.1))
+    assert run.time_at_rest == 0
+    assert (run.L_f == run.point.radius).all()
+    assert (run.time_of_arrest == 0).all()
+
+
 @pytest.mark.parametrize(
     "values",
     [

@@ -11,7 +11,7 @@ from subslide.kernels.friction import COULOMB
 from subslide.kernels.friction.coulomb import head
 from subslide.kernels.hyperbolicity import RUB, rub
 from subslide.kernels.jit import inlined, part
-from subslide.kernels.positivity import limit, share
+from subslide.kernels.positivity import limit, reference, share
 from subslide.kernels.printed import braking
 from subslide.kernels.slowing import first_reach, law_left, left_of
 from subslide.kernels.velocity import velocity
@@ -144,8 +144,9 @@ def update(s, c, fx, terms, mesh, start, stop, low, high, dt, acts):
     for m in range(count):
         k = m + first
         h, q = advance_layer(s, c.h1, c.u1, water, terms.keep1, terms.inner_p1x, mesh, dt, k)
+        depth = reference(c.h1[k + GHOSTS], h, terms.keep1[k + GHOSTS])
         c.h1[k + GHOSTS] = h
-        c.u1[k + GHOSTS] = velocity(q, h, s.dry_depth)
+        c.u1[k + GHOSTS] = velocity(q, depth, s.dry_depth)
     first, count = part(low, high)
     for m in range(count):
         k = m + first

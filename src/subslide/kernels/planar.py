@@ -12,7 +12,7 @@ from subslide.kernels.friction import COULOMB
 from subslide.kernels.friction.coulomb import head
 from subslide.kernels.hyperbolicity import RUB, rub
 from subslide.kernels.jit import inlined, part, unsigned
-from subslide.kernels.positivity import limit, share
+from subslide.kernels.positivity import limit, reference, share
 from subslide.kernels.printed import braking
 from subslide.kernels.slowing import first_reach, law_left, left_of
 from subslide.kernels.velocity import norm, velocity
@@ -189,9 +189,10 @@ def update(s, c, fx, fy, terms, spans, j, dt, acts):
         h, qx, qy = advance_layer(
             ratio, c.h1, c.u1, c.v1, x, y, terms.keep1, terms.inner_p1x, terms.inner_p1y, j, k
         )
+        depth = reference(c.h1[p, i], h, terms.keep1[p, i])
         c.h1[p, i] = h
-        c.u1[p, i] = velocity(qx, h, s.dry_depth)
-        c.v1[p, i] = velocity(qy, h, s.dry_depth)
+        c.u1[p, i] = velocity(qx, depth, s.dry_depth)
+        c.v1[p, i] = velocity(qy, depth, s.dry_depth)
     x, y = (fx.f2, fx.m2, fx.t2, fx.p2), (fy.f2, fy.m2, fy.t2, fy.p2)
     first, count = part(low, high)
     for m in range(count):

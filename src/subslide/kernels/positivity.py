@@ -21,6 +21,16 @@ def share(depth, outflow, margin):
 
 
 @inlined
+def reference(before, after, keep):
+    """Return the depth over which a cell's momentum is a velocity: that after a step, of a drained cell the larger.
+
+    Deviation from Eq. (6): pressure products are not cut to what a cell can feed. Over the millionth that is left of a
+    drained cell they made speeds of 3e5 sqrt(g H2), and 142 times the energy of the start.
+    """
+    return max(before, after) if keep < type(keep)(1) else after
+
+
+@inlined
 def donor(flux, before, after):
     """Return the value on the side that a flux comes from.
 

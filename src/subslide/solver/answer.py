@@ -60,7 +60,7 @@ def describe(status: str, model: Model, sampled: np.ndarray, time_scale: float) 
     return f"{text}, {suspect}" if suspect else text
 
 
-def series_in_si(model: Model, point: Point, sampled: np.ndarray) -> dict[str, np.ndarray]:
+def series_in_si(model: Model, point: Point, sampled: np.ndarray, stood: bool) -> dict[str, np.ndarray]:
     """Return the series of a run in SI units.
 
     Parameters
@@ -71,6 +71,8 @@ def series_in_si(model: Model, point: Point, sampled: np.ndarray) -> dict[str, n
         The run.
     sampled
         Samples (samples, columns), scaled.
+    stood
+        Whether no grain ever moved.
 
     Returns
     -------
@@ -86,7 +88,7 @@ def series_in_si(model: Model, point: Point, sampled: np.ndarray) -> dict[str, n
     series = {"x_front": np.where((front > 0) | at_axis, front * si.length, np.nan)}
     side = scenes.front(point)
     if side is not None:
-        series["x_front"][:, 0] = side * si.length
+        series["x_front"][:, : None if stood else 1] = side * si.length
     alone = model.settings.layers == 1
     series["eta_gauge"] = column[samples.GAUGE] * (math.nan if alone else si.height)
     for name, measured in measures.SERIES.items():
@@ -242,7 +244,7 @@ def make_run(
     x, profiles = shared(model, snapshots)
     whole = [snapshot.fields for snapshot in snapshots if snapshot.fields]
     time = sampled[:, samples.TIME] * time_scale
-    series = series_in_si(model, point, sampled)
+    series = series_in_si(model, point, sampled, stood=clock[k.REST_SINCE] == 0)
     front = series["x_front"]
     status, detail = ended
     final = status in FINISHED

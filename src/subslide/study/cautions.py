@@ -63,9 +63,12 @@ def _standing_jump(point: Point) -> bool:
 
 def _sliding(point: Point) -> bool:
     """Return whether layers slide so fast over each other that their waves grow without end."""
-    return (
-        point.scene == "shear" and point.treatment in ("real", "hll") and scenes.options(point)["shear"] > 1
-    )
+    if point.treatment not in ("real", "hll"):
+        return False
+    if point.scene == "slide" and point.r > 0 and point.a_H > 0:
+        limit = scenes.load("shear").critical_shear(point.a_H, 1.0, point.r)
+        return scenes.options(point)["speed"] > limit
+    return point.scene == "shear" and scenes.options(point)["shear"] > 1
 
 
 REGIONS = (
@@ -162,7 +165,7 @@ REGIONS = (
         "sliding layers",
         _sliding,
         "above the limit of hyperbolicity finer waves grow faster: answers do not converge as cells shrink",
-        "treatment: friction, or stop, or a shear below 1",
+        "treatment: friction, or stop, or less shear",
         {
             "scene": "shear",
             "scene_options": {"shear": 1.5, "amplitude": 1e-3},
