@@ -18,6 +18,7 @@ def peak(point: Point, time: np.ndarray, eta: np.ndarray) -> tuple[float, float]
 
     The head of a wave is a jump that each finer grid makes higher and narrower; what passes in a stated time converges.
     Over half that time one of 40 columns changed by 1.3 % from 3,200 to 6,400 cells, over all of it none by 0.6 %.
+    Of 16 corners of the range one (a_H 0.5, a_2 0.3, r 0.8, delta 40) changes by 1.04 %, others by 0.55 % at most.
 
     Parameters
     ----------
