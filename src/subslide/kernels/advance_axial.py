@@ -145,7 +145,8 @@ def advance(s, c, left, right, fx, terms, mesh, walls, watch, thresholds, track)
             code = k.NO_ROOM  # on the open sea no wave gets to an end
         if code == k.RUNNING:
             pace = max(pace, max(c.pace[0], c.pace[cells - 1]))
-            stable = k.stable_step(s, pace, clock[k.STOP] - now)
+            film = may_overtop(s, least1)
+            stable = k.stable_step(s, k.starting_pace(s, clock, film, pace), clock[k.STOP] - now)
             if stable < k.SMALLEST_STEP * s.dx:
                 code = k.COLLAPSED
             else:
@@ -155,7 +156,6 @@ def advance(s, c, left, right, fx, terms, mesh, walls, watch, thresholds, track)
                 if k.friction_is_even(s, clock):
                     slow_down(s, c, type(s.r)(k.ahead(clock, taken)))
                 acts = type(s.r)(k.friction_time(s, clock, taken))
-                film = may_overtop(s, least1)
                 step(s, c, left, right, fx, terms, mesh, active, walls[0], film, dt, acts)
                 clock[k.NOW] = k.after(now, taken, dt, clock[k.STOP])
     counters[k.SAMPLES] = n

@@ -277,7 +277,8 @@ def advance_planar(
         code = judged(s, code, sample[samples.COMPLEX])
         if code == k.RUNNING:
             pace = largest(rows[:, PACE], 0, rows.shape[0])
-            stable = k.stable_step(s, pace, clock[k.STOP] - now)
+            film = largest(rows[:, THIN], 0, rows.shape[0]) > 0.0
+            stable = k.stable_step(s, k.starting_pace(s, clock, film, pace), clock[k.STOP] - now)
             if stable < k.SMALLEST_STEP * s.dx:
                 code = k.COLLAPSED
             else:
@@ -286,7 +287,6 @@ def advance_planar(
                 if k.friction_is_even(s, clock):
                     slow_down_rows(s, c, type(s.r)(k.ahead(clock, taken)))
                 acts = type(s.r)(k.friction_time(s, clock, taken))
-                film = largest(rows[:, THIN], 0, rows.shape[0]) > 0.0
                 fill_fluxes(s, c, left, right, lower, upper, fx, fy, terms, spans, film, dt, blocks)
                 fill_all_terms(s, c, fx, fy, terms, spans, dt, ny)
                 join_plane(terms.keep1, walls)

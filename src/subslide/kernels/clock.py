@@ -62,6 +62,18 @@ def next_step(now, stop, stable):
 
 
 @inlined
+def starting_pace(s, clock, film, pace):
+    """Return the pace of waves, at the start under a film no less than that of an exact front of depth H2.
+
+    Cells at rest do not know that speed, 2 sqrt(g (1-r) H2): a first step as long as theirs takes the front beyond the
+    next cell, and the second gives back up to 1.1 % of the energy that can be released.
+    """
+    real = type(pace)
+    front = real(2) * math.sqrt(real(1) - s.r)
+    return max(pace, front) if film and s.exact_front and clock[NOW] == 0.0 else pace
+
+
+@inlined
 def stable_step(s, pace, left):
     """Return the largest stable step of waves of a pace, or the time that is left where nothing moves."""
     real = type(pace)
