@@ -59,7 +59,7 @@ def test_a_line_is_lengthened_at_both_ends_to_the_same_bits(order):
         edges = np.arange(-half, half + 1) * dx
         h2 = np.where(np.abs(edges[:-1] + 0.25) < 0.6, 0.8, 0.0)
         model = axial(edges, 2.0 - h2, 0.0, h2, 0.0, level=2.0, walls=(0, 0), order=order)
-        outcome, _ = advance_to(model, np.array([0.0, 3.0, math.inf, -1.0]), [], lambda now: None)
+        outcome, _ = advance_to(model, k.started(3.0), [], lambda now: None)
         return model, outcome
 
     (short, outcome), (long, _) = sea(n), sea(16 * n)

@@ -8,7 +8,6 @@ import pytest
 from subslide.keys.names import SCHEMES
 from subslide.solver import solve
 from subslide.study.config import make_point
-from subslide.tables._energy import GAINED
 
 
 @pytest.mark.parametrize("order", [1, 2])
@@ -32,12 +31,17 @@ def test_a_slab_tears_off_a_wall(scheme, order):
         assert run.status == "ok", (run.status_detail, speed, a_H, r)
 
 
-@pytest.mark.parametrize(("scheme", "order"), [("ifcph", 2), ("ifcp", 2), ("roe", 1), ("roe", 2)])
-def test_a_slab_that_climbs_a_wall_gains_no_energy(scheme, order):
+@pytest.mark.parametrize("speed", [2, 2.5, 3])
+@pytest.mark.parametrize(
+    ("scheme", "order", "most"),
+    [("hll", 2, 0.01), ("roe", 1, 0.01), ("roe", 2, 0.02), ("ifcph", 2, 1), ("ifcp", 2, 1)],
+)
+def test_a_slab_that_climbs_a_wall_gains_no_energy(scheme, order, most, speed):
+    """Beyond the limit of hyperbolicity, as here, the parabolas gain some; speeds of what is left in cells none."""
     point = make_point(
         {
             "scene": "slide",
-            "scene_options": {"speed": 3},
+            "scene_options": {"speed": speed},
             "boundary": "wall",
             "scheme": scheme,
             "order": order,
@@ -47,4 +51,4 @@ def test_a_slab_that_climbs_a_wall_gains_no_energy(scheme, order):
         }
     )
     energy = solve(point).series["energy"]
-    assert (energy - np.minimum.accumulate(energy)).max() < GAINED * energy[0]
+    assert (energy - np.minimum.accumulate(energy)).max() < most * energy[0]

@@ -16,7 +16,7 @@ REACHED = {
     "ok": {},
     "not_at_rest": {"as_printed": "friction"},
     "left_domain": {"delta": 0},
-    "step_collapse": {"cfl": 1.5, "delta": 0, "boundary": "wall", "cells": 100, "order": 1},
+    "step_collapse": {"cfl": 3, "delta": 0, "boundary": "wall", "cells": 100, "order": 1},
     "hyperbolicity_lost": {**SHEAR, "scene_options": {"shear": 1.5}, "treatment": "stop"},
 }
 """A run for each status that a real run was seen to end in."""

@@ -30,11 +30,11 @@ def sheared(part, treatment, **keys):
 @pytest.mark.parametrize("scheme", ["ifcph", "ifcp"])
 @pytest.mark.parametrize("part", [1.5, 2.0])
 def test_real_parts_and_hll_grow_where_friction_does_not(part, scheme):
-    """Surfaces more than half a layer high, bounded since layers that part take HLL, against a thousandth of one."""
+    """Surfaces a third of a layer high and more, bounded as layers that part take HLL, against a thousandth of one."""
     runs = {name: sheared(part, name, cells=400, scheme=scheme) for name in ("real", "hll", "friction")}
     assert runs["hll"].status == runs["friction"].status == "ok"
     highest = {name: run.max_abs_eta.max() / (0.56 * 0.0705) for name, run in runs.items()}
-    assert 0.5 < highest["real"] < 1
+    assert 0.33 < highest["real"] < 1
     assert highest["hll"] < 0.85
     assert highest["friction"] < 1e-3
     assert runs["hll"].nonhyperbolic_cells.max() == 400
