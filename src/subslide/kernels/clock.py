@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from subslide.kernels.jit import inlined
+from subslide.keys.names import SCHEMES, flags
 
 RUNNING, REACHED, AT_REST, FRONT_AT_EDGE, NOT_FINITE, NEGATIVE, COLLAPSED, FULL, SHEARED, NO_ROOM = range(10)
 
@@ -13,6 +14,8 @@ NOW, STOP, REST_FROM, REST_SINCE, AHEAD = range(5)
 
 # Indices into the int64 array `counters`.
 SAMPLES, OUTCOME = range(2)
+
+IFCP = flags(SCHEMES)["ifcp"]
 
 SMALLEST_STEP = 1e-6
 """In units of dx / sqrt(g H2): no wave of a run that can finish is a million times faster than sqrt(g H2)."""
@@ -63,14 +66,17 @@ def next_step(now, stop, stable):
 
 @inlined
 def starting_pace(s, clock, film, pace):
-    """Return the pace of waves, at the start under a film no less than that of an exact front of depth H2.
+    """Return the pace of waves, at the start under a film no less than that of a front of depth H2.
 
     Cells at rest do not know that speed, 2 sqrt(g (1-r) H2): a first step as long as theirs takes the front beyond the
     next cell, and the second gives back up to 1.1 % of the energy that can be released.
     """
     real = type(pace)
     front = real(2) * math.sqrt(real(1) - s.r)
-    return max(pace, front) if film and s.exact_front and clock[NOW] == 0.0 else pace
+    quick = (
+        s.exact_front or s.scheme == IFCP
+    )  # HLL spreads a front as fast as the water's waves, and needs no less
+    return max(pace, front) if film and quick and clock[NOW] == 0.0 else pace
 
 
 @inlined
