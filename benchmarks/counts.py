@@ -14,12 +14,16 @@ import sys
 from collections import Counter
 from types import SimpleNamespace
 
+import numpy as np
+
 CHEAP, DIVISION, ROOT = "add_multiply", "division", "square_root"
 counted = Counter()
 
 
 class Number(float):
     """A float whose arithmetic is counted, and gives counting floats."""
+
+    dtype = np.dtype(np.float64)  # what np.finfo takes the type for
 
 
 def counting(name, kind):
@@ -75,8 +79,6 @@ class Traced:
 
 def traced(kind, shape, prefix, reads, writes, fill):
     """Return a named tuple of `Traced` arrays of that shape, each cell `fill(field)`."""
-    import numpy as np
-
     return kind(
         *(Traced(np.full(shape, fill(field)), f"{prefix}.{field}", reads, writes) for field in kind._fields)
     )
@@ -107,12 +109,11 @@ def edge_counts():
 def step_counts(order, n=6):
     """Return for each part of the plane's step its operations a cell, and the arrays it reads and writes.
 
-    The cell is the general one: two layers, wet, moving. The solver spends less on one without grains (its water alone)
-    and nothing on one at rest (outside the spans). At first order the states at faces are the cells' own; at second
-    order they are not among the arrays: rows are worked on in blocks so that these stay in a core's cache.
+    The cell is the general one: two layers, wet, moving, under no film. The solver spends less on one without grains
+    (its water alone) and nothing on one at rest (outside the spans). At first order the states at faces are the cells'
+    own; at second order they are not among the arrays: rows are worked on in blocks so that these stay in a core's
+    cache.
     """
-    import numpy as np
-
     from subslide.kernels import planar, planar_faces
     from subslide.kernels.active import LAST, SPANS, WET_LAST
     from subslide.kernels.advance_planar import row_fluxes
@@ -158,7 +159,7 @@ def step_counts(order, n=6):
     else:
         left, right, lower, upper = (arrays(Side, (2, padded[1]), "cache") for _ in range(4))
         old, now = 1, 0
-    whole = (0, n)
+    whole, film = (0, n), False  # water so deep is not looked at for steps that overtop it
 
     def fluxes():
         if order != 1:
@@ -166,17 +167,17 @@ def step_counts(order, n=6):
         planar.fill_stuck(s, c, fx.stuck[j], (row, row), BEFORE, 1, 0, n, dt)
         slow, fast = (c.slow_x[row],) * 2, (c.fast_x[row],) * 2
         before, after = side_row(right, now), side_row(left, now)
-        row_fluxes(s, flux_row(fx, j), slow, fast, before, after, BEFORE, 1, whole, whole)
+        row_fluxes(s, flux_row(fx, j), slow, fast, before, after, BEFORE, 1, whole, whole, film)
         planar.fill_stuck(s, c, fy.stuck[j], (row - 1, row), GHOSTS, 0, 0, n, dt)
         slow, fast = (c.slow_y[row - 1], c.slow_y[row]), (c.fast_y[row - 1], c.fast_y[row])
         before, after = side_row_turned(upper, old), side_row_turned(lower, now)
-        row_fluxes(s, flux_row(fy, j), slow, fast, before, after, GHOSTS, 0, whole, whole)
+        row_fluxes(s, flux_row(fy, j), slow, fast, before, after, GHOSTS, 0, whole, whole, film)
 
     parts = {
         "survey": lambda: planar.cell_speeds(s, row_of(c, row), 0, n),
         "fluxes": fluxes,
         "terms": lambda: planar.fill_terms(s, c, fx, fy, terms, spans, j, dt),
-        "update": lambda: planar.update(s, c, fx, fy, terms, spans, j, dt),
+        "update": lambda: planar.update(s, c, fx, fy, terms, spans, j, dt, dt),
     }
     found = {}
     for name, work in parts.items():

@@ -1,4 +1,4 @@
-/* The edge computation of src/subslide/kernels/edge.py (with waves.py and viscosity/ifcp.py, hll.py) as a C programmer
+/* The edge computation of src/subslide/kernels/edge/two_layers.py (with waves.py and viscosity/) as a C programmer
    would write it for speed: one vector loop over n edges, IFCPH alone, every choice a conditional expression.
    Compiled with -DREAL=double or -DREAL=float; see reference.py for the flags. Scaled, g = 1. */
 #include <tgmath.h>
@@ -53,9 +53,12 @@ void edge_fluxes(long n, REAL r, REAL dry_depth, int exact_front, const REAL *co
 
         /* Roe means */
         REAL h1 = half * (h1_i + h1_j), h2 = half * (h2_i + h2_j);
-        REAL u1 = roe_velocity(sqrt(h1_i), u1_i, sqrt(h1_j), u1_j);
-        REAL root_i = sqrt(h2_i), root_j = sqrt(h2_j);
-        REAL u2 = roe_velocity(root_i, u2_i, root_j, u2_j);
+        REAL root1_i = sqrt(h1_i), root1_j = sqrt(h1_j);
+        REAL root2_i = sqrt(h2_i), root2_j = sqrt(h2_j);
+        REAL u1 = roe_velocity(root1_i, u1_i, root1_j, u1_j);
+        REAL u2 = roe_velocity(root2_i, u2_i, root2_j, u2_j);
+        REAL gap1 = u1_j - u1_i - (root1_i + root1_j);
+        REAL gap2 = u2_j - u2_i - root_reduced * (root2_i + root2_j);
         REAL q1_i = h1_i * u1_i, q1_j = h1_j * u1_j, q2_i = h2_i * u2_i, q2_j = h2_j * u2_j;
         REAL d_h2 = h2_j - h2_i, d_h1 = d_eta - d_h2, d_q1 = q1_j - q1_i, d_q2 = q2_j - q2_i;
 
@@ -83,7 +86,7 @@ void edge_fluxes(long n, REAL r, REAL dry_depth, int exact_front, const REAL *co
         REAL near = right ? s_r : s_l, far = right ? s_l : s_r;
         REAL s_int = copysign(size, near);
 
-        /* IFCP, or HLL where a layer is dry */
+        /* IFCP, or HLL where a layer is dry, or parts faster than it can fill the gap */
         REAL sign = right ? one : -one;
         REAL denominator = (far - s_int) * (far - near);
         REAL i2 = -sign * (far + far) / (denominator != 0 ? denominator : one);
@@ -95,7 +98,7 @@ void edge_fluxes(long n, REAL r, REAL dry_depth, int exact_front, const REAL *co
         i2 = one_sided ? zero : i2;
         REAL d0, d1;
         hll(s_l, s_r, &d0, &d1);
-        int dry = least(least(h1_i, h1_j), least(h2_i, h2_j)) <= dry_depth;
+        int dry = (most(gap1, gap2) > 0) | (least(least(h1_i, h1_j), least(h2_i, h2_j)) <= dry_depth);
         REAL a0 = dry ? d0 : i0;
         REAL a1 = dry ? d1 : i1;
         REAL a2 = dry ? zero : i2;
@@ -111,7 +114,7 @@ void edge_fluxes(long n, REAL r, REAL dry_depth, int exact_front, const REAL *co
         /* grains that run onto a dry bed: the fan of a dam break */
         int outward = h2_i > h2_j;
         REAL h_wet = outward ? h2_i : h2_j, w = outward ? u2_i : -u2_j;
-        REAL c_wet = root_reduced * (outward ? root_i : root_j);
+        REAL c_wet = root_reduced * (outward ? root2_i : root2_j);
         REAL u_fan = most(zero, third * (w + c_wet + c_wet));
         REAL u_star = w < c_wet ? u_fan : w;
         REAL h_star = w < c_wet ? u_fan * u_fan / (one - r) : h_wet;
@@ -128,8 +131,11 @@ void edge_fluxes(long n, REAL r, REAL dry_depth, int exact_front, const REAL *co
         f1[e] = half * (q1_i + q1_j - viscous);
         m1[e] = half * (q1_i * u1_i + q1_j * u1_j - (a0 * d_q1 + a1 * b2 + a2 * g2));
         f2[e] = through;
-        m2[e] = front ? mass * u_star + push : carried;
+        /* no momentum of the grains passes a stuck edge: the halves of the pressure act on each side by its weight */
+        REAL d_head = r * d_h1 + d_h2;
+        carried = front ? mass * u_star + push : carried;
+        m2[e] = stuck ? (REAL)0.25 * (h2_i - h2_j) * d_head : carried;
         p1[e] = h1 * d_eta;
-        p2[e] = h2 * (r * d_h1 + d_h2);
+        p2[e] = h2 * d_head;
     }
 }
