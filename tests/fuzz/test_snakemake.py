@@ -27,7 +27,7 @@ REFUSED = {
     "a long name": (PLAIN.replace("study: t", f"study: {'t' * 300}"), "study"),
     "millions of points": (f"{PLAIN}r: {MANY[:4000]}\ndelta: {MANY[::2]}\n", "points"),
     "a pipe as raster": (PLAIN + "scene: raster\nscene_options: {file: pipe.nc}\n", "pipe.nc"),
-    "578 days": (PLAIN.replace("0.05", "1e9"), "max_memory"),
+    "too many hours": (PLAIN.replace("0.05", "1e9"), "max_core_hours"),
     "an escape": (PLAIN + '"a\\e[31mb": 1\n', "a\\x1b[31mb"),
 }  # fmt: skip
 """Configurations that are refused, and what the line names."""

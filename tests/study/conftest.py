@@ -1,5 +1,6 @@
 """Runs made up without a solver, so that files and tables are tested apart from numerics."""
 
+import signal
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -113,6 +114,18 @@ def write_yaml(tmp_path):
         return path
 
     return write
+
+
+@pytest.fixture
+def signals_of_a_terminal():
+    """No signal that a test's commands start by ignoring, though the suite itself may (`nohup`, or `&` in a script)."""
+    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    ignored = [number for number in numbers if signal.getsignal(number) == signal.SIG_IGN]
+    for number in ignored:
+        signal.signal(number, signal.SIG_DFL)
+    yield
+    for number in ignored:
+        signal.signal(number, signal.SIG_IGN)
 
 
 @pytest.fixture(scope="session")

@@ -11,6 +11,8 @@ from subslide.files import Stopped
 from subslide.records import netcdf
 from subslide.study import batches, config, plan
 
+pytestmark = pytest.mark.usefixtures("signals_of_a_terminal")
+
 AXES = {"a_H": [n / 4 for n in range(1, 41)], "model": "radial", "cells": 1600, "t_end": 0.5}
 
 

@@ -22,10 +22,12 @@ from subslide.points import Point
 from subslide.records.netcdf import read
 from subslide.solver import loop, solve
 
+pytestmark = pytest.mark.usefixtures("signals_of_a_terminal")
+
 SHARED = dict(os.environ)
 """Environment with the cache of kernels that all tests share."""
 
-LONG = ("run", "--cells", "8000", "--model", "radial", "--t-end", "1000", "-o", "x.nc")
+LONG = ("run", "--cells", "8000", "--model", "radial", "--t-end", "100", "-o", "x.nc")
 
 
 @pytest.fixture(autouse=True, scope="module")
