@@ -190,7 +190,9 @@ read off, and how many hold. It is written by
 - **Without a limit**: {limitless}.
   The surface leaps beside the column at the start, and waves that meet on the axis are the higher the finer the grid;
   bands.csv says so instead of a number.
-- Columns, solvers or grids beyond these get the wider of this band and Richardson's (Roache 1994).
+- Columns, solvers or grids beyond these get the wider of this band and Richardson's (Roache 1994). At second order the
+  bands of 1,600 cells are taken to 3,200, as of `numerics: resolved`: against 12,800 cells they held 98 % of 896 values
+  of 47 columns (lengths 91 to 100 %).
 
 Half-width of fronts, in cells:
 

@@ -131,6 +131,18 @@ def test_bands_of_a_run_unlike_those_that_were_calibrated_are_no_less_than_richa
         assert rows.loc[name, "band"] == pytest.approx(estimate(f1, f2, f3, 1.0).band)
 
 
+def test_runs_of_the_named_numerics_are_calibrated_but_for_their_coarse_grids():
+    alike = {
+        (name, cells): calibration.is_calibrated(config.make_point({"numerics": name, "cells": cells}))
+        for name in ("default", "paper", "resolved")
+        for cells in (100, 200, 1600, 3200)
+    }
+    assert {key for key, is_alike in alike.items() if not is_alike} == {
+        *((name, 100) for name in ("default", "paper", "resolved")),
+        ("paper", 3200),
+    }
+
+
 def test_a_wave_has_the_widest_of_three_bands():
     point = config.make_point({"cells": 400})
     share = calibration.WAVES[2]

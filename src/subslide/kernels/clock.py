@@ -76,7 +76,8 @@ def starting_pace(s, clock, film, pace):
     quick = (
         s.exact_front or s.scheme == IFCP
     )  # HLL spreads a front as fast as the water's waves, and needs no less
-    return max(pace, front) if film and quick and clock[NOW] == 0.0 else pace
+    starts = film and quick and s.layers == 2 and clock[NOW] == 0.0
+    return max(pace, front) if starts else pace
 
 
 @inlined

@@ -129,7 +129,8 @@ ENTRIES: dict[str, Entry] = {
     "max_disk": limit("disk, as estimated, that records and tables may take", 20, "GB", 1e-3, 1e6),
     "numerics": {
         "role": PRESET,
-        "description": "named set of model, scheme, order, cells and boundary; keys written out win over it",
+        "description": "named set of model, scheme, order, cells, front_flux and boundary; keys written out win over"
+        " it",
         "enum": ["default", "paper", "resolved"],
         "default": "default",
         "axis": True,

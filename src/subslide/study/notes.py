@@ -40,7 +40,7 @@ NOTES = (
         "what error to expect is known for "
         + ", ".join(f"{key} {low:g} to {high:g}" for key, (low, high) in VOUCHED.items())
         + "; elsewhere it may be larger",
-        "bands: true, which gives each run of a study its own error",
+        "a study with bands: true, which estimates the error of each run from three grids",
         {"a_2": 0.07, "delta": 40, "cells": 200},
         {"a_2": 0.56},
         "",
@@ -48,7 +48,7 @@ NOTES = (
     Region(
         "coarse grid",
         lambda point: point.scene in COLUMNS and point.scaled_dx > COARSEST,
-        f"with cells of more than {COARSEST:g} R the length of the deposit errs by up to a quarter",
+        f"with cells of more than {COARSEST:g} R the length of the deposit errs by up to a third",
         "cells: 100 or more",
         {"cells": 20, "a_2": 1.2},
         {"cells": 100},
