@@ -69,13 +69,12 @@ def starting_pace(s, clock, film, pace):
     """Return the pace of waves, at the start under a film no less than that of a front of depth H2.
 
     Cells at rest do not know that speed, 2 sqrt(g (1-r) H2): a first step as long as theirs takes the front beyond the
-    next cell, and the second gives back up to 1.1 % of the energy that can be released.
+    next cell, and the second gives back up to 1.1 % of the energy that can be released. HLL spreads fronts as fast as
+    the water's waves, and needs no less.
     """
     real = type(pace)
     front = real(2) * math.sqrt(real(1) - s.r)
-    quick = (
-        s.exact_front or s.scheme == IFCP
-    )  # HLL spreads a front as fast as the water's waves, and needs no less
+    quick = s.exact_front or s.scheme == IFCP
     starts = film and quick and s.layers == 2 and clock[NOW] == 0.0
     return max(pace, front) if starts else pace
 
