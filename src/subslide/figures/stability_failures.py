@@ -7,10 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from subslide import naming
-from subslide.figures import _atlas, _slices, _style, _words
+from subslide.figures import _slices, _style, _words
 from subslide.points import RUN_KEYS, Point
-from subslide.tables._energy import GAINED
 
 if TYPE_CHECKING:
     from subslide.results import Results
@@ -35,10 +33,10 @@ def draw(results: "Results") -> Figure:
     Returns
     -------
     Figure
-        Six panels.
+        Four panels.
     """
-    figure, axes = _style.panels(6, 2, 1.9)
-    panels = (creeping, printed, checkerboard, blown_up, film, quiet)
+    figure, axes = _style.panels(4, 2, 1.9)
+    panels = (creeping, printed, checkerboard, blown_up)
     for k, (ax, panel) in enumerate(zip(axes, panels, strict=True)):
         title = panel(ax, results)
         ax.set_title(_words.panel(k, title or f"{panel.__name__.replace('_', ' ')}: no such run"))
@@ -51,7 +49,7 @@ def draw(results: "Results") -> Figure:
            "non-negative, and a run that blows up ends as step_collapse before its values overflow." if never else "")
     ]  # fmt: skip
     entries = [
-        (Line2D([], [], **START), "start in (a), grains in (e)"),
+        (Line2D([], [], **START), "start in (a)"),
         (Line2D([], [], **RIGHT), "as it should be"),
         (Line2D([], [], **WRONG), "what went wrong"),
     ]
@@ -109,41 +107,6 @@ def blown_up(ax: Axes, results: "Results") -> str | None:
     return (
         f"blow-up: Courant number {row['cfl']:g}, {method(row)}:\n{row['status']} after {row['steps']} steps"
     )
-
-
-def film(ax: Axes, results: "Results") -> str | None:
-    """Draw a run that failed under a film of water; return the title, or None without such a run."""
-    rows = usual(results)
-    rows = rows[(rows["status"] == "step_collapse") & (rows["a_H"] > 0)]
-    if rows.empty:
-        return None
-    row = rows.sort_values(["a_H", "id"]).iloc[-1]
-    data = results.record(row["id"]).isel(snapshot=-1)
-    height = _slices.column(row).column_height
-    ax.plot(data["x"] / row["radius"], data["h2"] / height, **START)
-    ax.plot(data["x"] / row["radius"], 1 + row["a_H"] + data["eta"] / height, **WRONG)
-    labels(ax, "$x/R$", "$h_2/H_2$ and surface$/H_2$")
-    return f"{row['status']}: the film's water runs away\n({column_words(row)})"
-
-
-def quiet(ax: Axes, results: "Results") -> str | None:
-    """Draw a run that ended well although its energy rose; return the title, or None without such a run."""
-    rows = usual(results)
-    rows = rows[rows["status"].isin(naming.FINISHED) & (rows["energy_rise"] > GAINED)]
-    if rows.empty:
-        return None
-    row = rows.sort_values(["energy_rise", "id"]).iloc[-1]
-    energy(ax, results, row, WRONG)
-    fine = results.atlas[results.atlas["id"] == row["reference"]]
-    if len(fine):
-        energy(ax, results, fine.iloc[0], RIGHT)
-    return f"status {row['status']}, yet energy rose (blue: finest grid)\n({column_words(row)})"
-
-
-def usual(results: "Results") -> pd.DataFrame:
-    """Return the rows of collapses behind walls with the default scheme on the grid of the maps."""
-    rows = _atlas.chosen(results, scheme=Point.scheme, boundary="wall", a_2=Point.a_2)
-    return rows[rows["cells"] == rows["cells"].mode().iloc[0]]
 
 
 def first(results: "Results", **values: Any) -> pd.Series | None:
@@ -204,11 +167,6 @@ def energy(ax: Axes, results: "Results", row: pd.Series, look: _style.Look) -> N
 def method(row: pd.Series) -> str:
     """Return a run's scheme and order, in words."""
     return f"{row['scheme'].upper()} of order {row['order']}"
-
-
-def column_words(row: pd.Series) -> str:
-    """Return what tells a run's column apart, in words."""
-    return ", ".join(_words.equation(key, row[key]) for key in ("a_H", "r", "delta", "order"))
 
 
 def labels(ax: Axes, x: str, y: str) -> None:

@@ -33,6 +33,6 @@ def draw(results: "Results") -> Figure:
     figure, rows, entries = _atlas.maps(results, "delta", "a_H", **column)
     notes = [
         "At $a_H$ = 0 the column touches the surface. Where friction holds a part of the flat top, the film drains "
-        "over its edge, and a cell that runs dry beside deeper water can be driven faster and faster."
+        "over its edge: to the water, steps of grains at rest are a bed."
     ]
     return _style.finish(figure, TITLE, _atlas.about(rows, ("a_2", "r")), notes, more=entries)
