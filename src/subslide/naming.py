@@ -44,7 +44,10 @@ SERIES = {
         " grid); where waves meet on the axis it has no limit as cells shrink",
     ),
     "max_abs_eta_outside": Name(
-        "max|η| (x > R)", STEP, "m", "largest displacement of the water surface there and beyond R"
+        "max|η| (x > R)",
+        STEP,
+        "m",
+        "largest displacement of the water surface beyond R, within 4.2553 R of the axis along x and y",
     ),
     "eta_gauge": Name(
         "η(2 R)",
