@@ -25,6 +25,7 @@ from subslide.naming import FINISHED, FRONT_LABELS
 from subslide.points import Point
 from subslide.tables import _calibration as calibration
 from subslide.tables import bands
+from subslide.tables._convergence import NO_LIMIT
 
 GRIDS = (50, 100, 200, 400, 800, 1600)
 TRUTH, BEYOND = 6400, 12800
@@ -113,7 +114,7 @@ def compare(seed: int, n: int, measured: dict, moves: dict[str, float]) -> Itera
                 quantity, time = row["quantity"], row["time"]
                 length = grids[0].values.get((quantity.replace("x_front", "L_f"), None), math.nan)
                 stopped = time is not None and row["value"] == length
-                if row["convergence"] == "no limit" or stopped:
+                if row["convergence"] == NO_LIMIT or stopped:
                     continue
                 true = answer[quantity, time] + moves[quantity]
                 arrived = quantity.startswith("L_f") or row["value"] >= calibration.ARRIVED * length

@@ -10,24 +10,17 @@ from subslide.solver import solve
 from subslide.study.config import make_point
 
 
+def slab(speed, scheme, order, **values):
+    """Run of a slab of grains that slides from one wall to the other."""
+    about = {"scene": "slide", "scene_options": {"speed": speed}, "boundary": "wall", "cells": 100}
+    return solve(make_point({**about, "scheme": scheme, "order": order, **values}))
+
+
 @pytest.mark.parametrize("order", [1, 2])
 @pytest.mark.parametrize("scheme", SCHEMES)
 def test_a_slab_tears_off_a_wall(scheme, order):
     for speed, a_H, r in itertools.product((0.5, 1, 1.5, 2, 3), (0.5, 1, 4), (0, 0.4, 0.8)):
-        point = make_point(
-            {
-                "scene": "slide",
-                "scene_options": {"speed": speed},
-                "boundary": "wall",
-                "scheme": scheme,
-                "order": order,
-                "a_H": a_H,
-                "r": r,
-                "cells": 100,
-                "t_end": 0.5,
-            }
-        )
-        run = solve(point)
+        run = slab(speed, scheme, order, a_H=a_H, r=r, t_end=0.5)
         assert run.status == "ok", (run.status_detail, speed, a_H, r)
 
 
@@ -38,17 +31,5 @@ def test_a_slab_tears_off_a_wall(scheme, order):
 )
 def test_a_slab_that_climbs_a_wall_gains_no_energy(scheme, order, most, speed):
     """Beyond the limit of hyperbolicity, as here, the parabolas gain some; speeds of what is left in cells none."""
-    point = make_point(
-        {
-            "scene": "slide",
-            "scene_options": {"speed": speed},
-            "boundary": "wall",
-            "scheme": scheme,
-            "order": order,
-            "r": 0.4,
-            "cells": 100,
-            "t_end": 0.4,
-        }
-    )
-    energy = solve(point).series["energy"]
+    energy = slab(speed, scheme, order, r=0.4, t_end=0.4).series["energy"]
     assert (energy - np.minimum.accumulate(energy)).max() < most * energy[0]

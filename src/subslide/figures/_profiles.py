@@ -6,9 +6,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from subslide import naming
-from subslide.figures import _words
+from subslide.figures import _kinds, _style, _words
 
 if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+
     from subslide.results import Results
 
 
@@ -64,6 +67,44 @@ def at(profiles: list[Profile], time: float | None) -> Profile | None:
     if time is None:
         return next((p for p in profiles if p.last), None)
     return next((p for p in profiles if abs(p.time - time) <= 1e-3 * max(time, 1e-12)), None)
+
+
+def draw(
+    ax: "Axes",
+    kinds: Iterable[_kinds.Kind],
+    rows: "pd.DataFrame",
+    shapes: dict[str, list[Profile]],
+    time: float | None,
+    looks: dict[float, _style.Look],
+    units: tuple[_words.Unit, _words.Unit],
+) -> list[str]:
+    """Draw the profiles of runs at a time, a line for each r and kind of numerics, and return what has none, in words.
+
+    Parameters
+    ----------
+    ax
+        Panel to draw in.
+    kinds, rows
+        Kinds of numerics, and the rows of the table of runs to draw.
+    shapes
+        Profiles by id of the run.
+    time
+        Time (s); None for the end of the run.
+    looks
+        Look of each r.
+    units
+        Units of x and of the values.
+    """
+    missing = []
+    for kind in kinds:
+        for _, row in rows[rows["id"].isin(kind.runs["id"])].iterrows():
+            profile = at(shapes[row["id"]], time)
+            if profile is None:
+                missing.append(kind.called(_words.equation("r", row["r"])))
+                continue
+            x, values = profile.x * units[0].factor, profile.values * units[1].factor
+            ax.plot(x, values, **kind.line(looks[row["r"]]))
+    return missing
 
 
 def times_of(runs: Iterable[list[Profile]], most: int) -> list[float]:

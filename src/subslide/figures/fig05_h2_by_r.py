@@ -49,14 +49,8 @@ def draw(results: "Results") -> Figure:
     for k, (ax, time) in enumerate(zip(axes, times, strict=True)):
         when = _words.moment(time, t_unit) if time is not None else "end of the run"
         ax.set_title(_words.panel(k, when))
-        for kind in kinds:
-            for _, row in kind.runs.iterrows():
-                profile = _profiles.at(shapes[row["id"]], time)
-                if profile is None:
-                    missing.append(kind.called(f"{_words.equation('r', row['r'])}, {when}"))
-                    continue
-                x, depth = profile.x * x_unit.factor, profile.values * unit.factor
-                ax.plot(x, depth, **kind.line(looks[row["r"]]))
+        lacking = _profiles.draw(ax, kinds, runs, shapes, time, looks, (x_unit, unit))
+        missing += [f"{run}, {when}" for run in lacking]
         if round_column:
             ax.axvline(radius * x_unit.factor, color=_style.GREY, linewidth=0.7, linestyle=":", zorder=0.5)
     far = (

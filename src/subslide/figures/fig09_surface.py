@@ -57,14 +57,8 @@ def draw(results: "Results") -> Figure:
         rows = shown[shown["a_H"] == a_H]
         if (rows["wave_free_until"] < time).any():
             ax.set_facecolor(_water.REFLECTED)
-        for kind in kinds:
-            for _, row in rows[rows["id"].isin(kind.runs["id"])].iterrows():
-                profile = _profiles.at(shapes[row["id"]], time)
-                if profile is None:
-                    missing.append(kind.called(f"{_words.equation('r', row['r'])}, {where}"))
-                    continue
-                x, displacement = profile.x * x_unit.factor, profile.values * unit.factor
-                ax.plot(x, displacement, **kind.line(looks[row["r"]]))
+        lacking = _profiles.draw(ax, kinds, rows, shapes, time, looks, (x_unit, unit))
+        missing += [f"{run}, {where}" for run in lacking]
         ax.axhline(0, color="black", linewidth=0.5, zorder=0.5)
         if round_column:
             ax.axvline(radius * x_unit.factor, color=_style.GREY, linewidth=0.7, linestyle=":", zorder=0.5)
