@@ -31,8 +31,5 @@ def draw(results: "Results") -> Figure:
     """
     column = {"a_2": Point.a_2, "delta": Point.delta, "boundary": "wall"}
     figure, rows, entries = _atlas.maps(results, "r", "a_H", **column)
-    notes = [
-        "Error: against the default scheme on the finest grid, where its two finest grids agree. With little water "
-        "over the column runs fail where it drains over the edge of grains at rest; which ones is chance."
-    ]
+    notes = ["Error: against the default scheme on the finest grid, where its two finest grids agree."]
     return _style.finish(figure, TITLE, _atlas.about(rows, ("a_2", "delta")), notes, more=entries)
