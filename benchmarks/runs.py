@@ -48,7 +48,7 @@ def solved(point, threads=1):
     run = solve(point, threads=threads)
     if run.status != "ok":
         raise ValueError(f"a benchmark's run failed: {point.model}, order {point.order}: {run.status_detail}")
-    return run.steps, run.wall_seconds, len(run.x) ** (2 if point.model in ("plane", "quarter") else 1)
+    return run.steps, run.wall_seconds, run.x.shape[-1] ** (2 if point.model in ("plane", "quarter") else 1)
 
 
 def edge_rate(point, seconds=0.0):

@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parents[1]
-ASIDE = ("point", "wall_seconds", "model_reason")
+ASIDE = ("point", "wall_seconds", "model_reason", "grid", "grid_reason")
 """What a run has that is no part of its answer."""
 
 

@@ -212,9 +212,10 @@ def summary(result: "Run") -> str:
         parts.append(f"peak max|η| = {np.nanmax(result.max_abs_eta):.4g} m")
     if np.isfinite(result.time_at_rest):
         parts.append(f"at rest at {result.time_at_rest:.4g} s")
-    parts.append(
-        f"{result.model} ({result.model_reason}), {result.steps} steps in {result.wall_seconds:.3g} s"
-    )
+    parts.append(f"{result.model} ({result.model_reason})")
+    if result.grid != "uniform":
+        parts.append(f"{result.grid} grid ({result.grid_reason})")
+    parts.append(f"{result.steps} steps in {result.wall_seconds:.3g} s")
     return ", ".join(parts)
 
 

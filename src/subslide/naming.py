@@ -27,6 +27,8 @@ class Name(NamedTuple):
 
 STEP = ("run", "step")
 PROFILE = ("run", "snapshot", "x")
+CELLS = ("run", "snapshot", "cell")
+"""Dimensions of profiles, and of their positions, in a record whose runs do not lie on one uniform grid."""
 
 SERIES = {
     "x_front": Name(
@@ -127,6 +129,9 @@ COORDINATES = {
     "front_threshold": Name("", ("front_threshold",), "1", "depth that defines the front over H2"),
     "x": Name("x", ("x",), "m", "distance of cell centre from the axis of the column along x"),
     "y": Name("y", ("y",), "m", "distance of cell centre from the axis of the column along y"),
+    "cell_width": Name(
+        "", CELLS, "m", "width of the cell; only where runs lie on unlike grids, or on one that moves"
+    ),
     "time": Name("t", STEP, "s", "elapsed time since release"),
     "snapshot_time": Name("t", ("run", "snapshot"), "s", "elapsed time of the profile"),
 }

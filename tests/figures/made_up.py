@@ -25,6 +25,7 @@ DEFAULTS = {
     "boundary": "paper",
     "t_end": "rest",
     "resolved_model": "quarter",
+    "resolved_grid": "uniform",
     "status": "ok",
     "status_detail": "",
 }

@@ -7,6 +7,7 @@ import numpy as np
 
 from subslide import naming
 from subslide.figures import _kinds, _style, _words
+from subslide.results import positions
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -42,7 +43,6 @@ def of_run(results: "Results", name: str, variable: str) -> list[Profile]:
     """
     record = results.record(name)
     wanted = next(run.point.profile_times for run in results.runs_of_study if run.id == name)
-    x = record["x"].to_numpy()
     times = np.atleast_1d(record["snapshot_time"].to_numpy())
     rest = float(record["time_at_rest"])
     finished = str(record["status"].item()) in naming.FINISHED
@@ -52,7 +52,7 @@ def of_run(results: "Results", name: str, variable: str) -> list[Profile]:
         seen = np.isfinite(values)
         if not np.isfinite(time) or not seen.any():
             continue
-        xs, values = x[seen], values[seen]
+        xs, values = positions(record, k)[seen], values[seen]
         if xs[0] > 0:
             xs, values = np.concatenate([-xs[:1], xs]), np.concatenate([values[:1], values])
         asked, end = float(time) in wanted, k == len(times) - 1
@@ -120,7 +120,9 @@ def together(profiles: list[Profile], tolerance: float) -> list[list[Profile]]:
     """Return the profiles in groups, each within `tolerance` (m) of the first of its group."""
     groups: list[list[Profile]] = []
     for profile in profiles:
-        same = groups and np.allclose(groups[-1][0].values, profile.values, rtol=0, atol=tolerance)
+        first = groups[-1][0] if groups else profile
+        there = np.interp(first.x, profile.x, profile.values)
+        same = groups and np.allclose(first.values, there, rtol=0, atol=tolerance)
         groups[-1].append(profile) if same else groups.append([profile])
     return groups
 

@@ -65,5 +65,5 @@ def covered(model: str) -> str:
 
 
 def sizes_of_cells(results: "Results", rows: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows with `dx` (m) of each run."""
-    return pd.merge(rows, results.runs[["id", "dx"]], on="id")
+    """Return the rows with `dx` (m) of each run that has one."""
+    return pd.merge(rows, results.runs[["id", "dx"]].dropna(), on="id")

@@ -26,10 +26,15 @@ OUTSIDE = "max_abs_eta_outside"
 
 
 def wet(runs: pd.DataFrame) -> tuple[pd.DataFrame, list[str]]:
-    """Return (runs with water, notes on those without: a model of the grains alone has no surface)."""
-    dry = runs["resolved_model"].astype(str) == "one-layer"
-    note = f"{dry.sum()} runs of the grains alone (one layer) have no water surface and are not shown."
-    return runs[~dry], [note] if dry.any() else []
+    """Return (runs with a known water surface, notes on those without: grains alone, or on a grid fitted to them)."""
+    alone = runs["resolved_model"].astype(str) == "one-layer"
+    fitted = (runs["resolved_grid"] == "fitted") & ~alone
+    kinds = {
+        "of the grains alone (one layer) have no water surface": alone.sum(),
+        "on a grid fitted to the grains do not resolve the water surface": fitted.sum(),
+    }
+    notes = [f"{count} runs {why} and are not shown." for why, count in kinds.items() if count]
+    return runs[~alone & ~fitted], notes
 
 
 def buoyant(runs: pd.DataFrame) -> tuple[pd.DataFrame, list[str]]:

@@ -107,9 +107,13 @@ def solver(runs: "pd.DataFrame") -> str:
     """Return how the runs were solved, in words."""
     row = runs.iloc[0]
     cell = length_unit(row["dx"])
+    fitted = row["resolved_grid"] == "fitted"
+    cells = (
+        f"{row['cells']} fitted cells" if fitted else f"cells of {row['dx'] * cell.factor:.3g} {cell.name}"
+    )
     scheme = f"{ORDERS[int(row['order'])]} {str(row['scheme']).upper()}"
     models = ", ".join(sorted(runs["resolved_model"].astype(str).unique()))
-    return f"{scheme}, cells of {row['dx'] * cell.factor:.3g} {cell.name} ({models})"
+    return f"{scheme}, {cells} ({models})"
 
 
 def trouble(

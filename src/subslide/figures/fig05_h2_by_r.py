@@ -53,10 +53,8 @@ def draw(results: "Results") -> Figure:
         missing += [f"{run}, {when}" for run in lacking]
         if round_column:
             ax.axvline(radius * x_unit.factor, color=_style.GREY, linewidth=0.7, linestyle=":", zorder=0.5)
-    far = (
-        1.05 * max(_profiles.reach(profiles, 2e-3 * height) for profiles in shapes.values())
-        + runs["dx"].max()
-    )
+    far = 1.05 * max(_profiles.reach(profiles, 2e-3 * height) for profiles in shapes.values())
+    far += runs["dx"].fillna(0).max()
     begin = _profiles.start(shapes.values(), far)
     axes[0].set(xlim=(begin * x_unit.factor, far * x_unit.factor), ylim=(0, 1.1 * height * unit.factor))
     for ax in _style.bottom_row(axes, columns):

@@ -136,7 +136,7 @@ def _caption(captions: Path | None, name: str) -> str:
 
 def _rows(runs: "pd.DataFrame") -> str:
     """Return the first rows of the table of runs: the keys that vary, and what was found."""
-    columns = ["id", *varied(runs), *SHOWN]
+    columns = ["id", *varied(runs), *(name for name in SHOWN if runs[name].notna().any())]
     shown = runs[columns].head(MOST_ROWS)
     table = shown.to_html(index=False, border=0, na_rep="", float_format=lambda value: f"{value:.6g}")
     return f'<div class="scroll">{table}</div>{_rest(len(runs), "runs.csv")}'

@@ -41,7 +41,8 @@ def read(path: Path, ids: Collection[str], names: Collection[str]) -> dict[str, 
     Returns
     -------
     dict
-        Variables by the id of the run and their name, without the dimension `run` and without padding.
+        Variables by the id of the run and their name, without the dimension `run` and without padding. Cells of a run
+        on a uniform grid are at `x` (x), whatever its record has; on a fitted one they move, `x` (snapshot, cell).
 
     Raises
     ------
@@ -64,7 +65,9 @@ def _of_run(variables: dict[str, Variable], wanted: dict[str, Variable], place: 
         "snapshot": slice(int(np.isfinite(variables["snapshot_time"].values[place]).sum())),
         "x": cells,
         "y": cells,
+        "cell": cells,
     }
+    still = "cell_width" in variables and variables["grid"].values[place] == "uniform"
     parts = {}
     for name, variable in wanted.items():
         dims, values = variable.dims, variable.values
@@ -72,5 +75,9 @@ def _of_run(variables: dict[str, Variable], wanted: dict[str, Variable], place: 
             dims, values = dims[1:], values[place]
         for axis, dim in enumerate(dims):
             values = values[(*[slice(None)] * axis, kept.get(dim, slice(None)))]
+        if still and name == "x":
+            values = values[0]
         parts[name] = values.copy() if dims else values
+    if still:
+        parts.pop("cell_width", None)
     return parts

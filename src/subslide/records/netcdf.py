@@ -30,7 +30,7 @@ def write(path: Path | str, runs: list["Run"]) -> None:
     path
         File, which is written whole or not at all.
     runs
-        Results of `solver.solve` that share one cell size, thinned (`records.thinning`).
+        Results of `solver.solve`, thinned (`records.thinning`).
 
     Raises
     ------

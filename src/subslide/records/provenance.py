@@ -19,6 +19,8 @@ STATED = (
     "order",
     "model",
     "model_reason",
+    "grid",
+    "grid_reason",
     "cells",
     "dtype",
     "status",

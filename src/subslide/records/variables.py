@@ -1,5 +1,6 @@
 """From solved runs to the variables of a record: one layout for one run and for a batch."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -20,27 +21,32 @@ class Variable(NamedTuple):
 
 
 PARAMETERS = tuple(
-    key for key in points.RUN_KEYS if key not in ("scene_options", "model", "snapshot_times", "fields")
+    key
+    for key in points.RUN_KEYS
+    if key not in ("scene_options", "model", "grid", "snapshot_times", "fields")
 )
 """Keys of a run that are variables as they are; what the others asked for is told by other variables."""
 
 WORDS = {
     "model": "geometry that was solved",
     "model_reason": "why that geometry was solved",
+    "grid": "grid that was solved on",
+    "grid_reason": "why that grid was solved on",
     "status": "how the run ended",
     "status_detail": "what ended the run, in words",
 }
 """Texts that a run says of itself, by name, and their meaning."""
 
-BESIDE = {"step": "time", "snapshot": "snapshot_time"}
+BESIDE = {"step": "time", "snapshot": "snapshot_time", "cell": "x"}
 """Variable that holds the places along a dimension."""
 
 
 def variables(runs: list["Run"]) -> dict[str, Variable]:
     """Return the variables of a record by name.
 
-    Shorter runs are padded with NaN. Profiles lie on the union of the runs' grids, which match because cell centres
-    are whole steps from (i + 1/2) dx.
+    Shorter runs are padded with NaN. Profiles of runs of one cell size lie on the union of their grids, which match
+    because cell centres are whole steps from (i + 1/2) dx. Of any other runs each has positions of its own, snapshot by
+    snapshot, along the dimension `cell`.
 
     Parameters
     ----------
@@ -50,25 +56,25 @@ def variables(runs: list["Run"]) -> dict[str, Variable]:
     Raises
     ------
     ValueError
-        If the runs have different cell sizes.
+        If a run that keeps fields over the plane does not share its grid with the others.
     """
-    first, x = _shared_grid(runs)
+    inside, places = _shared_grid(runs) or _grids_apart(runs)
     record = {
         "front_threshold": _variable("front_threshold", np.array(naming.FRONT_THRESHOLDS)),
-        "x": _variable("x", x),
+        **places,
     }
     record["x"].attrs["axis"] = "X"
     record.update(_scalars(runs))
     for name in ("time", *naming.SERIES):
         record[name] = _variable(name, _padded([getattr(run, name) for run in runs]))
     record["snapshot_time"] = _variable("snapshot_time", _padded([run.snapshot_time for run in runs]))
-    record.update(_profiles(runs, first, len(x)))
+    record.update(_profiles(runs, inside, places["x"].dims[-1]))
     for name, variable in record.items():
         if variable.dims[:1] == ("run",) and name != "id":
             beside = [BESIDE[dim] for dim in variable.dims if BESIDE.get(dim, name) != name]
             variable.attrs["coordinates"] = " ".join(["id", *beside])
     if any(name in record for name in naming.FIELDS_2D):
-        record["y"] = _variable("y", x)
+        record["y"] = _variable("y", places["x"].values)
         record["y"].attrs["axis"] = "Y"
     return record
 
@@ -94,48 +100,72 @@ def _scalars(runs: list["Run"]) -> dict[str, Variable]:
     return record
 
 
-def _shared_grid(runs: list["Run"]) -> tuple[int, np.ndarray]:
-    """Return the index of the first cell, and the centres (m), of the grid that holds every run's."""
+def _shared_grid(runs: list["Run"]) -> tuple[list[slice], dict[str, Variable]] | None:
+    """Return where each run's cells lie on the uniform grid that holds them all, and its centres; None without one."""
     dx = runs[0].dx
-    if any(abs(run.dx - dx) > 1e-12 * dx for run in runs):
-        raise ValueError("the runs of a record need one cell size")
-    first = min(_offset(run) for run in runs)
-    last = max(_offset(run) + len(run.x) for run in runs)
-    return first, (np.arange(first, last) + 0.5) * dx
+    if not all(run.width is None and abs(run.dx - dx) <= 1e-12 * dx for run in runs):
+        return None
+    starts = [round(float(run.x[0]) / run.dx - 0.5) for run in runs]  # cells from the axis
+    ends = [start + len(run.x) for start, run in zip(starts, runs, strict=True)]
+    first = min(starts)
+    inside = [slice(start - first, end - first) for start, end in zip(starts, ends, strict=True)]
+    return inside, {"x": _variable("x", (np.arange(first, max(ends)) + 0.5) * dx)}
 
 
-def _offset(run: "Run") -> int:
-    """Return the index of a run's first cell, counted from the axis."""
-    return round(float(run.x[0]) / run.dx - 0.5)
+def _grids_apart(runs: list["Run"]) -> tuple[list[slice], dict[str, Variable]]:
+    """Return where each run's cells lie along the dimension `cell`, and their centres and widths at each snapshot."""
+    if any(getattr(run, name) is not None for run in runs for name in naming.FIELDS_2D):
+        raise ValueError(
+            "runs that keep fields over the plane need one cell size for all runs of their record"
+        )
+    inside = [slice(run.x.shape[-1]) for run in runs]
+    widths = [run.dx if run.width is None else run.width for run in runs]
+    of_runs: dict[str, list[Any]] = {"x": [run.x for run in runs], "cell_width": widths}
+    places = {}
+    for name, kept in of_runs.items():
+        at_snapshots = [np.broadcast_to(kept[n], run.h2.shape) for n, run in enumerate(runs)]
+        places[name] = _variable(name, _joined(at_snapshots, inside, _snapshots(runs)), naming.CELLS)
+    return inside, places
 
 
-def _profiles(runs: list["Run"], first: int, cells: int) -> dict[str, Variable]:
-    """Return profiles and fields, by name, on the shared grid; those that no run has are left out."""
+def _snapshots(runs: list["Run"]) -> int:
+    """Return the most snapshots of a run."""
+    return max(len(run.snapshot_time) for run in runs)
+
+
+def _profiles(runs: list["Run"], inside: list[slice], dim: str) -> dict[str, Variable]:
+    """Return profiles and fields, by name, with the dimension `dim` along x; those that no run has are left out."""
     record = {}
-    snapshots = max(len(run.snapshot_time) for run in runs)
     for name, about in {**naming.PROFILES, **naming.FIELDS_2D}.items():
         kept = [getattr(run, name) for run in runs]
-        if all(values is None for values in kept):
-            continue
-        axes = len(about.dims) - 2
-        dtype = np.float32 if name in naming.FIELDS_2D else np.float64
-        joined = np.full((len(runs), snapshots, *[cells] * axes), np.nan, dtype)
-        for n, (run, values) in enumerate(zip(runs, kept, strict=True)):
-            if values is not None:
-                inside = slice(_offset(run) - first, _offset(run) - first + len(run.x))
-                place: tuple[int | slice, ...] = (n, slice(len(values)), *[inside] * axes)
-                joined[place] = values
-        record[name] = _variable(name, joined)
+        if any(values is not None for values in kept):
+            joined = _joined(kept, inside, _snapshots(runs))
+            record[name] = _variable(name, joined, (*about.dims[:-1], dim))
     return record
 
 
-def _variable(name: str, values: np.ndarray) -> Variable:
-    """Return a variable with the dimensions, unit and long name of the naming table."""
+def _joined(kept: Sequence[np.ndarray | None], inside: list[slice], snapshots: int) -> np.ndarray:
+    """Return arrays (snapshots, cells or cells, cells) along a new first axis, those of each run inside its cells.
+
+    The rest is NaN, and so is all of a run that has none.
+    """
+    first = next(values for values in kept if values is not None)
+    cells = [max(part.stop for part in inside)] * (first.ndim - 1)
+    joined = np.full((len(kept), snapshots, *cells), np.nan, first.dtype)
+    for of_run, values, part in zip(joined, kept, inside, strict=True):
+        if values is not None:
+            of_run[(slice(len(values)), *[part] * len(cells))] = values
+    return joined
+
+
+def _variable(name: str, values: np.ndarray, dims: tuple[str, ...] = ()) -> Variable:
+    """Return a variable with the unit, long name and, unless others are given, dimensions of the naming table."""
     about = naming.NAMES[name]
+    dims = dims or about.dims
     attrs = {"units": about.unit, "long_name": about.long_name}
-    if values.dtype.kind == "f" and name not in ("x", "y", "front_threshold"):
+    if values.dtype.kind == "f" and dims != (name,):
         attrs["_FillValue"] = values.dtype.type(np.nan)
-    return Variable(about.dims, values, attrs)
+    return Variable(dims, values, attrs)
 
 
 def _parameter(key: str, values: list) -> Variable:

@@ -234,7 +234,8 @@ def trimmed(data: "xr.Dataset", name: str) -> "xr.Dataset":
     Returns
     -------
     xarray.Dataset
-        The same without the dimension `run`, as lazy as it was.
+        The same without the dimension `run`, as lazy as it was. Cells of a run on a uniform grid are at `x` (x), whatever
+        its record has; on a fitted one they move, `x` (snapshot, cell), and have a `cell_width`.
 
     Raises
     ------
@@ -246,11 +247,32 @@ def trimmed(data: "xr.Dataset", name: str) -> "xr.Dataset":
         raise RecordError(f"{data.encoding.get('source', 'a record')}: the record lacks the run {name}; {AGAIN}")
     one = data.isel(run=int(places[0]))
     one = one.isel(step=slice(int(np.isfinite(one["time"].values).sum())))
-    if "x" in one.dims:
+    if along := [dim for dim in ("x", "y", "cell") if dim in one.dims]:
         snapshots = int(np.isfinite(one["snapshot_time"].values).sum())
         inside = np.isfinite(one["h2"].isel(snapshot=0).values)
-        one = one.isel(snapshot=slice(snapshots), **{dim: inside for dim in ("x", "y") if dim in one.dims})
+        one = one.isel(snapshot=slice(snapshots), **dict.fromkeys(along, inside))
+    if "cell" in one.dims and one["grid"].item() == "uniform":
+        one = one.assign_coords(x=one["x"].variable[0]).swap_dims(cell="x").drop_vars("cell_width")
     return one
+
+
+def positions(record: Any, snapshot: int) -> np.ndarray:
+    """Return the centres of a run's cells at a snapshot.
+
+    Parameters
+    ----------
+    record
+        The run's record, or its variables by name, see `Results.record` and `Results.each`.
+    snapshot
+        Place of the snapshot; cells of a uniform grid are always at the same.
+
+    Returns
+    -------
+    ndarray
+        Distances (cells) in m from the axis.
+    """
+    x = np.asarray(record["x"])
+    return x if x.ndim == 1 else x[snapshot]
 
 
 def _empty(name: str) -> "pd.DataFrame":

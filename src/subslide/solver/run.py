@@ -21,7 +21,7 @@ class Run:
     model, model_reason
         Model that was solved, and why, in words.
     dx, x
-        Cell size and cell centres (x) in m from the axis.
+        Cell size and cell centres (cells) in m from the axis. On a fitted grid NaN, and centres (snapshots, cells).
     time
         Times (samples) of the series in s.
     series
@@ -44,6 +44,10 @@ class Run:
         Half-width of the box in m.
     wave_free_until
         Time in s until which no wave can have been at the open edge of the box; NaN without one.
+    width
+        Widths (snapshots, cells) in m of the cells of a fitted grid, whose edges move; None on a uniform one.
+    grid, grid_reason
+        Grid that was solved on, `uniform` or `fitted`, and why, in words.
     """
 
     point: Point
@@ -68,6 +72,9 @@ class Run:
     time_of_arrest: np.ndarray
     time_at_rest: float
     box_half_width: float
+    width: np.ndarray | None = None
+    grid: str = "uniform"
+    grid_reason: str = "asked for"
 
     def __getattr__(self, name: str) -> np.ndarray:
         """Return the series of that name."""

@@ -8,6 +8,8 @@ import numpy as np
 
 from subslide.naming import FRONT_LABELS
 from subslide.points import Point
+from subslide.results import positions
+from subslide.study import choice
 
 GAUSS = ((-math.sqrt(0.6), 5 / 18), (0.0, 8 / 18), (math.sqrt(0.6), 5 / 18))
 """Places in a cell from -1 to 1 and weights of Gauss's quadrature."""
@@ -26,11 +28,11 @@ def errors_at(answer: ModuleType, point: Point, record: dict, time: float) -> It
         Elapsed time (s).
     """
     if hasattr(answer, "stays"):
-        if answer.stays(point):
+        if answer.stays(point) and record["x"].ndim == 1:  # cells that move are not those of the start
             yield "h2_change", change(point, profile(record, "h2", time), profile(record, "h2", 0.0))
         return
     known = cell_means(answer, point, record, time)
-    weight = weights(record)
+    weight = weights(point, record, time)
     for quantity, values in known.items():
         if not np.isfinite(record[quantity]).any():  # water of a model without water
             continue
@@ -61,31 +63,36 @@ def cell_means(answer: ModuleType, point: Point, record: dict, time: float) -> d
     dict
         Means (m) over each cell of the profile, by quantity; on a radius each ring's, weighted by |x|.
     """
-    x, dx = record["x"], float(record["dx"])
-    ring = is_round(record)
+    x, width = cells_at(record, time)
+    ring = is_round(point)
     total: dict[str, np.ndarray] = {}
     size = np.zeros(len(x))
-    for place, share in GAUSS:
-        spot = x + 0.5 * dx * place
-        share = share * np.abs(spot) if ring else share
+    for place, part in GAUSS:
+        spot = x + 0.5 * width * place
+        share = part * np.abs(spot) if ring else part
         size = size + share
         for quantity, values in answer.solution(point, spot, time).items():
             total[quantity] = total.get(quantity, 0.0) + share * values
     return {quantity: values / size for quantity, values in total.items()}
 
 
-def is_round(record: dict) -> bool:
-    """Return whether the cells of a profile stand for rings.
-
-    A line alone reaches across the axis with a model that is no plane.
-    """
-    return float(record["x"][0]) > 0 or record["model"] == "plane"
+def is_round(point: Point) -> bool:
+    """Return whether the cells of a run's profiles stand for rings."""
+    return choice.of(point).geometry != "line"
 
 
-def weights(record: dict) -> np.ndarray:
-    """Return the relative sizes of the cells or rings of a profile."""
-    x = record["x"]
-    return np.abs(x) if is_round(record) else np.ones(len(x))
+def cells_at(record: dict, time: float) -> tuple[np.ndarray, np.ndarray | float]:
+    """Return the centres (m) of a run's cells at the snapshot nearest to a time, and their widths (m)."""
+    place = nearest(record, time)
+    width = record["cell_width"][place] if record["x"].ndim > 1 else float(record["dx"])
+    return positions(record, place), width
+
+
+def weights(point: Point, record: dict, time: float) -> np.ndarray:
+    """Return the relative sizes of the cells or rings of a profile at a time."""
+    x, width = cells_at(record, time)
+    size = np.abs(x) if is_round(point) else np.ones(len(x))
+    return size * (width / np.mean(width))
 
 
 def scale(
@@ -102,10 +109,15 @@ def scale(
 
 def profile(record: dict, quantity: str, time: float) -> np.ndarray:
     """Return the profile (m) at a time, NaN if the run has none."""
-    shots = record["snapshot_time"]
-    place = int(np.argmin(np.abs(shots - time)))
-    near = abs(shots[place] - time) <= 1e-9 * max(time, 1e-12)
-    return record[quantity][place] if near else np.full(len(record["x"]), math.nan)
+    place = nearest(record, time)
+    near = abs(record["snapshot_time"][place] - time) <= 1e-9 * max(time, 1e-12)
+    values = record[quantity][place]
+    return values if near else np.full(len(values), math.nan)
+
+
+def nearest(record: dict, time: float) -> int:
+    """Return the place of the snapshot nearest to a time."""
+    return int(np.argmin(np.abs(record["snapshot_time"] - time)))
 
 
 def change(point: Point, later: np.ndarray, start: np.ndarray) -> float:

@@ -191,6 +191,7 @@ def errors(point: Point, name: str, runs: "pd.DataFrame", references: list[str])
 def budget(point: Point, record: dict, outcome: "pd.Series") -> dict:
     """Return the entries of a row on hyperbolicity, energy and volumes; `why_budget` says which are empty and why."""
     lost = np.nan_to_num(record["nonhyperbolic_cells"])
+    sized = math.isfinite(record["dx"])
     extent, dx = lost.max(), float(record["dx"]) / point.radius
     plane = record["model"] in ("quarter", "plane")
     drifts = outcome[["sediment_volume_error", "water_volume_error"]].astype(float)
@@ -205,7 +206,9 @@ def budget(point: Point, record: dict, outcome: "pd.Series") -> dict:
         "hyperbolic_margin": float(outcome["hyperbolic_margin_min"]),
         "energy_rise": rise,
         "volume_drift": drifts.max(),
-        "why_budget": why,
+        "why_budget": why
+        if sized
+        else "; ".join(filter(None, ("no nonhyperbolic_length: cells differ", why))),
     }
 
 

@@ -79,7 +79,7 @@ QUANTITIES = {
     },
     "h2_change": "grains that must stay at rest: largest change of their depth since the start, over H2",
 }
-MEASURED = ("x", "h2", "eta", "snapshot_time", "time", "x_front", "dx", "model")
+MEASURED = ("x", "cell_width", "h2", "eta", "snapshot_time", "time", "x_front", "dx", "model")
 """Variables of records that the table follows from."""
 
 

@@ -125,7 +125,8 @@ COLUMNS_OF_RUN = {
     **{key: _asked(key) for key in RUN_KEYS if key != "snapshot_times"},
     "m": Column("", SCALED, lambda run, record: run.point.friction_number),
     "resolved_model": _recorded("model", "", "geometry that was solved; `model` is what was asked for"),
-    "dx": _recorded("dx", "m", "cell size"),
+    "resolved_grid": _recorded("grid", "", "grid that was solved on, `uniform` or `fitted`"),
+    "dx": _recorded("dx", "m", "cell size; empty on a fitted grid"),
     "status": _recorded("status", "", STATUS),
     "status_detail": _recorded("status_detail", "", "what ended the run, in words"),
     "steps": _recorded("steps", "", "number of time steps"),
@@ -169,11 +170,22 @@ COLUMNS = {
     },
 }
 WORDS = (
-    *("id", "numerics", "resolved_model", "status", "status_detail", "moved"),
+    *("id", "numerics", "resolved_model", "resolved_grid", "status", "status_detail", "moved"),
     *(f"{name}_convergence" for name in bands.ONCE),
 )
 MEASURED = (
-    *("model", "dx", "status", "status_detail", "steps", "time_at_rest", "box_half_width", "L_f", "time"),
+    *(
+        "model",
+        "grid",
+        "dx",
+        "status",
+        "status_detail",
+        "steps",
+        "time_at_rest",
+        "box_half_width",
+        "L_f",
+        "time",
+    ),
     *("time_of_arrest", "wave_free_until", "energy", "max_abs_eta", "max_abs_eta_outside", "eta_gauge"),
     *("sediment_volume", "water_volume"),
     *("nonhyperbolic_cells", "hyperbolic_margin"),
@@ -197,9 +209,11 @@ def table(results: "Results") -> Iterator[dict]:
 def samples_inside(run: "StudyRun", record: dict) -> int:
     """Return the number of samples up to which nothing can have left the box.
 
-    A step carries a change `order` cells at most. Nothing ever leaves a closed box or a sea, and every sample counts.
+    A step carries a change `order` cells at most. Nothing ever leaves a closed box, a sea or a fitted grid, and every
+    sample counts.
     """
-    if run.point.boundary not in names.LEAVING or record["wave_free_until"] == math.inf:
+    closed = run.point.boundary not in names.LEAVING or record["grid"] == "fitted"
+    if closed or record["wave_free_until"] == math.inf:
         return len(record["time"])
     radius = run.point.radius
     cells = (min(PAPER_BOX * radius, float(record["box_half_width"])) - radius) / float(record["dx"])

@@ -20,7 +20,7 @@ COLUMNS = {
     "cell_updates_per_second": ("s-1", "cells times steps over wall time"),
 }
 WORDS = ("id",)
-MEASURED = ("steps", "wall_seconds", "model", "box_half_width", "dx")
+MEASURED = ("steps", "wall_seconds", "model", "box_half_width", "dx", "x")
 """Variables of records that the table follows from."""
 
 
@@ -39,5 +39,7 @@ def table(results: "Results") -> Iterator[dict]:
 
 def cells_in_box(record: dict) -> int:
     """Return the number of cells of a run's box at its end."""
+    if record["x"].ndim > 1:
+        return record["x"].shape[1]
     across = round(float(record["box_half_width"] / record["dx"]))
     return {"quarter": across**2, "plane": 4 * across**2, "line": 2 * across}.get(record["model"], across)
