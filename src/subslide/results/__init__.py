@@ -251,7 +251,7 @@ def trimmed(data: "xr.Dataset", name: str) -> "xr.Dataset":
         snapshots = int(np.isfinite(one["snapshot_time"].values).sum())
         inside = np.isfinite(one["h2"].isel(snapshot=0).values)
         one = one.isel(snapshot=slice(snapshots), **dict.fromkeys(along, inside))
-    if "cell" in one.dims and one["grid"].item() == "uniform":
+    if "cell" in one.dims and str(one["grid"].values) == "uniform":
         one = one.assign_coords(x=one["x"].variable[0]).swap_dims(cell="x").drop_vars("cell_width")
     return one
 
