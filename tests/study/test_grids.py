@@ -46,7 +46,7 @@ def volumes(x, width, h2):
     return (2 * np.pi * x * width * h2).sum(axis=-1)
 
 
-@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(kinds=st.lists(uniform | fitted, min_size=1, max_size=5))
 def test_every_run_comes_back_as_it_was_whatever_is_beside_it(tmp_path, make_run, kinds):
     runs = made(make_run, kinds)
@@ -75,7 +75,7 @@ def test_every_run_comes_back_as_it_was_whatever_is_beside_it(tmp_path, make_run
                     np.testing.assert_array_equal(plain["h2_diagonal"], run.h2_diagonal)
 
 
-@settings(max_examples=20, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(kind=uniform, others=st.lists(fitted, min_size=1, max_size=3))
 def test_a_run_on_a_uniform_grid_reads_alike_alone_and_beside_others(tmp_path, make_run, kind, others):
     runs = made(make_run, [kind, *others])
@@ -83,12 +83,8 @@ def test_a_run_on_a_uniform_grid_reads_alike_alone_and_beside_others(tmp_path, m
     for name, some in (("alone", runs[:1]), ("beside", runs)):
         records.write(tmp_path / f"{name}.nc", some)
         with open_record(tmp_path / f"{name}.nc") as data:
-            one = trimmed(data, runs[0].point.id).load()
-        answers.append(one if one["h2_diagonal"].notnull().any() else one.drop_vars("h2_diagonal")) if (
-            "h2_diagonal" in one
-        ) else answers.append(one)
+            answers.append(trimmed(data, runs[0].point.id).load())
     xr.testing.assert_allclose(*answers, rtol=1e-15, atol=0)
-    assert answers[0].sizes == answers[1].sizes
 
 
 @settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
@@ -106,7 +102,7 @@ def test_runs_on_one_uniform_grid_have_the_layout_of_before(make_run, cells, sea
     np.testing.assert_array_equal(record["x"].values, (np.arange(first, last) + 0.5) * runs[0].dx)
     assert record["x"].attrs.keys() == {"units", "long_name", "axis"}
     assert "cell_width" not in record
-    assert {"cell"}.isdisjoint(*(variable.dims for variable in record.values()))
+    assert not any("cell" in variable.dims for variable in record.values())
     for name in PROFILES:
         if name not in record:
             continue
