@@ -77,6 +77,7 @@ def scales(runs):
 def made_up_run(row):
     """Return the dataset of one run: a front that eases to its final length, a paraboloid under it, a ring of waves."""
     radius, height = row["radius"], row["a_2"] * row["radius"]
+    fitted = row["resolved_grid"] == "fitted"
     dx = 0.6 / row["cells"] * radius / 0.0705
     x = (np.arange(row["cells"] // 2) + 0.5) * dx
     scale = np.sqrt(radius / 0.0705)
@@ -92,18 +93,24 @@ def made_up_run(row):
     )
     shots = np.array([t * scale for t in TIMES if t * scale < time[-1]] + [time[-1]])
     speed = np.sqrt(row["g"] * height * (1 + row["a_H"]))
-    h2 = np.array([depth(x, np.interp(t, time, front), radius, height) for t in shots])
-    eta = np.array(
-        [np.interp(t, time, wave) * np.cos((x - speed * t) / radius * 2) / (1 + x / radius) for t in shots]
+    x = np.outer(np.interp(shots, time, front) / radius, x) if fitted else np.tile(x, (len(shots), 1))
+    h2 = np.array(
+        [depth(at, np.interp(t, time, front), radius, height) for t, at in zip(shots, x, strict=True)]
     )
-    if row["resolved_model"] == "one-layer":
+    eta = np.array(
+        [
+            np.interp(t, time, wave) * np.cos((at - speed * t) / radius * 2) / (1 + at / radius)
+            for t, at in zip(shots, x, strict=True)
+        ]
+    )
+    if fitted or row["resolved_model"] == "one-layer":
         eta, wave = eta * np.nan, wave * np.nan
     if failed:
         front[-1] = wave[-1] = np.nan
     thresholds = np.array(naming.FRONT_THRESHOLDS)
     fronts = front * (1 - 4 * (thresholds[:, None] - 0.01))
     lengths = np.full(3, np.nan) if failed else fronts[:, -1]
-    row = {**row, "dx": dx, "time_at_rest": np.nan if failed else rest}
+    row = {**row, "dx": np.nan if fitted else dx, "time_at_rest": np.nan if failed else rest}
     free = {"paper": (row["cells"] / 2 * dx - radius) / speed, "open": 2 * time[-1]}
     wet = row["resolved_model"] != "one-layer"
     row["wave_free_until"] = free.get(row["boundary"], np.nan) if wet else np.nan
@@ -113,6 +120,7 @@ def made_up_run(row):
             f"{name}_over_R": value / radius,
             name.replace("L_f", "time_of_arrest"): 0.9 * rest,
         }
+    along = ("snapshot", "cell" if fitted else "x")
     return xr.Dataset(
         {
             "time": ("step", time),
@@ -120,13 +128,13 @@ def made_up_run(row):
             "max_abs_eta": ("step", wave),
             "max_abs_eta_outside": ("step", 0.7 * wave),
             "snapshot_time": ("snapshot", shots),
-            "h2": (("snapshot", "x"), h2),
-            "eta": (("snapshot", "x"), eta),
+            "h2": (along, h2),
+            "eta": (along, eta),
             "L_f": ("front_threshold", lengths),
             "time_at_rest": row["time_at_rest"],
             "status": row["status"],
         },
-        {"x": x, "front_threshold": thresholds},
+        {"x": (along, x) if fitted else x[0], "front_threshold": thresholds},
         {"row": row},
     )
 

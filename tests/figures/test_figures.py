@@ -10,7 +10,7 @@ import pytest
 from made_up import RESOLVED, MadeUpResults, grid
 
 from subslide import catalogue
-from subslide.figures import _slices, _style, _words
+from subslide.figures import _profiles, _slices, _style, _words
 from subslide.keys import schema
 from subslide.laboratory import lube as laboratory
 
@@ -93,6 +93,49 @@ def test_short_run_of_the_grains_alone(name, tmp_path):
     figure.savefig(tmp_path / "figure.svg", bbox_inches="tight")
     if "surface" in catalogue.figure(name).title:
         assert "water surface" in words(figure)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_runs_on_a_fitted_grid(name, tmp_path):
+    """Grains are drawn where they are; of the surface, which such runs do not resolve, there is a word and no axis."""
+    needs = catalogue.figure(name).needs
+    values = {"resolved_grid": "fitted", "cells": 48}
+    figure = draw(name, MadeUpResults(grid(needs.get("a_H", (1, 10)), needs.get("r", (0, 0.4)), **values)))
+    figure.savefig(tmp_path / "figure.svg", bbox_inches="tight")
+    shown = [ax for ax in figure.axes if ax.get_visible()]
+    assert seen(figure) == shown
+    assert bool(shown) == (name not in ("fig08_max_eta", "fig09_surface"))
+    assert "nan" not in words(figure)
+    if "surface" in catalogue.figure(name).title:
+        assert "on a grid fitted to the grains do not resolve the water surface" in words(figure)
+    else:
+        assert "48 fitted cells" in words(figure)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_runs_on_a_fitted_grid_beside_others(name):
+    values = ((1, 2, 10), (0, 0.2, 0.4, 0.6, 0.8))
+    kinds = grid(*values) + grid(*values, **RESOLVED, resolved_grid="fitted")
+    figure = draw(name, MadeUpResults(kinds, bands=True))
+    assert seen(figure) == [ax for ax in figure.axes if ax.get_visible()]
+    assert "nan" not in words(figure)
+
+
+def test_profiles_on_a_fitted_grid_are_drawn_at_the_places_of_their_time():
+    results = MadeUpResults(grid((1,), (0.4,), resolved_grid="fitted"))
+    record = results.record(results.runs["id"][0])
+    axes = seen(draw("fig05_h2_by_r", results))
+    for n, ax in enumerate(axes[:5]):  # the times that were asked for
+        line = ax.get_lines()[0]
+        np.testing.assert_allclose(line.get_xdata()[1:], 1e2 * record["x"][n])
+        np.testing.assert_allclose(line.get_ydata()[1:], 1e3 * record["h2"][n])
+
+
+def test_profiles_that_agree_on_cells_that_moved_are_one_line():
+    x = np.linspace(0, 1, 40)
+    one, other = (_profiles.Profile(t, at, 1 - at, True, False, False) for t, at in ((0.0, x), (0.1, x**2)))
+    assert len(_profiles.together([one, other], 1e-3)) == 1
+    assert len(_profiles.together([one, other._replace(values=1 - x)], 1e-3)) == 2
 
 
 def test_every_run_of_a_slice_is_a_line(paper):

@@ -19,7 +19,7 @@ NAMES = {
 
 
 def cases(results: "Results") -> dict[str, pd.DataFrame]:
-    """Return the rows of the table of errors of each case with an exact profile, at its last time.
+    """Return the rows of the table of errors of each case with an exact profile, at its last time, on uniform grids.
 
     Parameters
     ----------
@@ -36,7 +36,10 @@ def cases(results: "Results") -> dict[str, pd.DataFrame]:
     NoRunsError
         If there is no such case.
     """
-    table = results.errors
+    table, runs = results.errors, results.runs
+    table = table[
+        table["id"].isin(runs["id"][runs["dx"].notna()])
+    ]  # of a fitted grid there is no size of cells
     table = table[table["quantity"].isin(["h2", "eta"]) & table["scene"].isin(list(NAMES))]
     if table.empty:
         raise _style.NoRunsError("a scene with an exact profile")
@@ -65,5 +68,5 @@ def covered(model: str) -> str:
 
 
 def sizes_of_cells(results: "Results", rows: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows with `dx` (m) of each run that has one."""
-    return pd.merge(rows, results.runs[["id", "dx"]].dropna(), on="id")
+    """Return the rows with `dx` (m) of each run."""
+    return pd.merge(rows, results.runs[["id", "dx"]], on="id")

@@ -38,6 +38,8 @@ def draw(results: "Results") -> Figure:
     """
     kinds = _kinds.of(results, most={"a_H": 4, "r": 6})
     runs, dry = _water.wet(pd.concat([kind.runs for kind in kinds]))
+    if runs.empty:
+        raise _style.NoRunsError(" ".join(dry))
     shown, left_out = _water.buoyant(runs)
     radius, _ = _slices.sizes(kinds[0].runs)
     times = np.array(paper_times(radius))
@@ -47,11 +49,11 @@ def draw(results: "Results") -> Figure:
     values = [value for quantity in curves.values() for _, value in quantity.values()]
     units = _words.Units(_words.time_unit(times), _words.length_unit(*values))
 
-    columns = max(len(depths), 1)
+    columns = len(depths)
     figure, axes = _style.panels(
         2 * columns, columns, 2.1 if len(kinds) == 1 else 3.0, sharex=True, sharey="row"
     )
-    for k, ax in enumerate(axes if depths else []):
+    for k, ax in enumerate(axes):
         quantity, a_H = list(ROWS)[k // columns], depths[k % columns]
         rows = shown[shown["a_H"] == a_H]
         for kind in kinds:
@@ -106,8 +108,6 @@ def _notes(
     unit: _words.Unit,
 ) -> list[str]:
     """Return what symbols and shades mean, and what is not converged."""
-    if shown.empty:
-        return ["No run of this study has a water surface."]
     stated = ", ".join(f"{time * unit.factor:.4g}" for time in times)
     scaled = "" if np.allclose(times, PAPER_TIMES) else " scaled by $\\sqrt{R}$"
     return [

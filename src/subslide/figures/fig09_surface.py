@@ -33,12 +33,14 @@ def draw(results: "Results") -> Figure:
     known = _slices.values_of(results, "a_H")
     kinds = _kinds.of(results, most={"r": 6}, a_H=[_slices.nearest(known, 1), _slices.nearest(known, 2)])
     runs, dry = _water.wet(pd.concat([kind.runs for kind in kinds]))
+    if runs.empty:
+        raise _style.NoRunsError(" ".join(dry))
     shown, left_out = _water.buoyant(runs)
     radius, _ = _slices.sizes(kinds[0].runs)
     looks = {r: look for r, look in _style.looks_of(runs["r"].unique()).items() if r in set(shown["r"])}
     round_column = kinds[0].runs.iloc[0]["scene"] == "cylinder"
     shapes = {row["id"]: _profiles.of_run(results, row["id"], "eta") for _, row in shown.iterrows()}
-    depths = sorted(shown["a_H"].unique()) or [np.nan]
+    depths = sorted(shown["a_H"].unique())
     times = _profiles.times_of(shapes.values(), 4)
     waves = [p.values for profiles in shapes.values() for p in profiles]
     x_unit, unit, t_unit = (
@@ -78,7 +80,7 @@ def draw(results: "Results") -> Figure:
     ]
     if not times:
         notes = ["No run of this study has a profile of the water surface."]
-    elif len(shown):
+    else:
         notes += _water.convergence(results, kinds, times[:2], t_unit, bars=False)
     if missing:
         notes.append(f"No profile: {'; '.join(missing)}.")

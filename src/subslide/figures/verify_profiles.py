@@ -10,7 +10,6 @@ from matplotlib.lines import Line2D
 from subslide import exact
 from subslide.figures import _style, _verify, _words
 from subslide.points import Point
-from subslide.results import positions
 
 if TYPE_CHECKING:
     from subslide.results import Results
@@ -80,7 +79,7 @@ def _panel(
     wave = point.scene == "standing_wave"
     size = height * (dict(point.scene_options)["amplitude"] if wave else 1)
     rest = height if wave and quantity == "h2" else 0.0
-    x = positions(results.record(fine["id"]), -1)
+    x = results.record(fine["id"])["x"].to_numpy()
     known = exact.load(point.scene).solution(point, x, time)[quantity]
     ax.plot(x / point.radius, (known - rest) / size, color="0.75", linewidth=2.8)
     for grid, cells in (("coarse", rows["cells"].min()), ("fine", rows["cells"].max())):
@@ -88,6 +87,6 @@ def _panel(
             record = results.record(row["id"])
             solved = record[quantity].isel(snapshot=-1).to_numpy()
             look = LOOKS[row["order"], grid]
-            ax.plot(positions(record, -1) / point.radius, (solved - rest) / size, **look, linewidth=0.9)
+            ax.plot(record["x"] / point.radius, (solved - rest) / size, **look, linewidth=0.9)
     symbol = _words.SYMBOLS[quantity]
     ax.set_ylabel(f"displacement of {symbol} (1)" if wave else f"{symbol}$/H_2$")

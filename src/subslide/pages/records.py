@@ -21,8 +21,16 @@ Lengths are in m from the axis of the scene, times in s from its release. Front 
 axis. In scenes on a line volumes and energy are per metre of width. With `boundary: open` a radius or line is a sea
 without an edge: it is lengthened before a wave comes to its end, with the bits of one that was long from the start.
 Of it `box_half_width`, volumes, energy and profiles are those of the paper's box, with what has gone beyond it:
-volumes and energy count it less still water, and profiles reach as far as any grains went. Each key of a
-study is a variable too ([config/README.md](../config/README.md)); attributes hold the configuration, versions and a
+volumes and energy count it less still water, and profiles reach as far as any grains went.
+
+`grid` says what a run was solved on. Cells of a `fitted` grid differ in size and move with the grains: `dx` is missing,
+and so is the wave (`max_abs_eta`, `max_abs_eta_outside`, `eta_gauge`, `eta`), which the coarse cells far away reflect.
+A file whose runs do not all lie on one uniform grid has the dimension `cell` in place of `x`, and each run its own
+positions `x(run, snapshot, cell)` and widths `cell_width(run, snapshot, cell)`, so that a volume on a radius is the sum
+of 2 pi x cell_width h2. `Results.record` gives a fitted run `x(snapshot, cell)` and `cell_width`, a uniform one `x(x)`
+whatever else is in its file; `subslide.results.positions(record, snapshot)` the positions of either.
+
+Each key of a study is a variable too ([config/README.md](../config/README.md)); attributes hold the configuration, versions and a
 checksum that readers verify. `status` is one of:
 
 """

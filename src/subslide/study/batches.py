@@ -75,7 +75,9 @@ def read_batch(spec: Path | str) -> list[Point]:
 def split(points: list[Point]) -> list[list[Point]]:
     """Return batches of points: one cell size and one set of kernels in each, balanced by estimated cost.
 
-    The number of cores has no say, so that the files of a study do not depend on it.
+    A record of unlike cell sizes repeats the positions and widths of cells at each snapshot, twice the bytes of its
+    profiles; so runs of unlike sizes share a process only if they must. The number of cores has no say, so that the
+    files of a study do not depend on it.
     """
     groups: dict[tuple, list[Point]] = {}
     for point in points:
