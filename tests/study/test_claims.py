@@ -69,6 +69,17 @@ def verdicts(results, column="resolved_verdict"):
     return dict(zip(table["claim"], table[column], strict=True))
 
 
+def test_claims_on_waves_are_left_out_where_no_run_has_any():
+    """As on grids that are fitted to the grains."""
+    grains = study(band=0.001)
+    grains.runs["eta_gauge_peak"] = np.nan
+    grains.series = grains.series[grains.series["quantity"] == "x_front_1pc"]
+    grains.bands = grains.bands[~grains.bands["quantity"].str.contains("eta")]
+    table = judged(grains)
+    assert len(table) == 9
+    assert not table["measure"].str.contains("eta").any()
+
+
 SECTION_4 = (
     "good agreement with the laboratory at r = 0",
     "deposit reached sooner for smaller r",

@@ -30,8 +30,8 @@ positions `x(run, snapshot, cell)` and widths `cell_width(run, snapshot, cell)`,
 of 2 pi x cell_width h2. `Results.record` gives a fitted run `x(snapshot, cell)` and `cell_width`, a uniform one `x(x)`
 whatever else is in its file; `subslide.results.positions(record, snapshot)` the positions of either.
 
-Each key of a study is a variable too ([config/README.md](../config/README.md)); attributes hold the configuration, versions and a
-checksum that readers verify. `status` is one of:
+Each key of a study is a variable too ([config/README.md](../config/README.md)); attributes hold the configuration,
+versions and a checksum that readers verify. `status` is one of:
 
 """
 

@@ -1,5 +1,6 @@
 """What the paper says of the water surface, over the whole box as it has it, and beyond R, where no waves meet."""
 
+from collections.abc import Callable
 from functools import partial
 
 from subslide import naming
@@ -18,6 +19,13 @@ from subslide.tables._claims.verdicts import (
 
 ALMOST_NONE = 0.01
 """Share of H2 below which a displacement of the surface is almost none: the depth that ends a front, too."""
+
+
+def where_known(
+    quantity: str, judge: Callable[[Evidence], Finding | None], evidence: Evidence
+) -> Finding | None:
+    """Judge a claim on a wave; None where no run has it, as on grids fitted to the grains."""
+    return judge(evidence) if evidence.wave(quantity).value.notna().any(axis=None) else None
 
 
 def waves_fall(quantity: str, along: str, evidence: Evidence) -> Finding | None:
@@ -112,7 +120,8 @@ def _about_waves() -> list[Claim]:
         ):
             if quantity == GAUGE and each in measure:
                 continue  # of a gauge there is a peak alone
-            claims.append(Claim(f"{words} ({where})", section, measure, judge))
+            judged = partial(where_known, quantity, judge)
+            claims.append(Claim(f"{words} ({where})", section, measure, judged))
     return claims
 
 
