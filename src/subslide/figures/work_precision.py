@@ -46,18 +46,23 @@ def draw(results: "Results") -> Figure:
     Returns
     -------
     Figure
-        A panel for each quantity and depth of water.
+        A panel for each quantity and depth of water of which an error is known.
     """
     table = results.work_precision
+    table = table[table["sure_error"].notna()]
     if table.empty:
         raise _style.NoRunsError("a sweep of numerics with a converged answer")
     places = table[["a_H", "a_2", "r", "delta"]].drop_duplicates()
     shown = places.head(MOST_COLUMNS)
     looks = _style.looks_of(dict.fromkeys(table["scheme"]), palette="viridis", light=0.9)
-    figure, axes = _style.panels(len(QUANTITIES) * len(shown), len(shown), 2.1, sharex=True, sharey="row")
+    quantities = [name for name in QUANTITIES if (table["quantity"] == name).any()]
+    figure, axes = _style.panels(len(quantities) * len(shown), len(shown), 2.1, sharex=True, sharey="row")
     for k, ax in enumerate(axes):
-        quantity, place = list(QUANTITIES)[k // len(shown)], shown.iloc[k % len(shown)]
+        quantity, place = quantities[k // len(shown)], shown.iloc[k % len(shown)]
         rows = table[(table["quantity"] == quantity) & (table[list(shown)] == place).all(axis=1)]
+        if rows.empty:
+            ax.set_visible(False)
+            continue
         _panel(ax, rows, looks)
         ax.set_title(_words.panel(k, f"{QUANTITIES[quantity]}, {_words.equation('a_H', place['a_H'])}"))
         ax.set_ylabel(f"error of {QUANTITIES[quantity]} (%)" if k % len(shown) == 0 else "")
@@ -82,7 +87,6 @@ def draw(results: "Results") -> Figure:
 def _panel(ax: Axes, rows: pd.DataFrame, looks: dict[str, _style.Look]) -> None:
     """Draw all runs as symbols, and on them the front, the two methods and the factors between."""
     ax.set(xscale="log", yscale="log")
-    rows = rows[rows["sure_error"].notna()]
     for (scheme, model, order), some in rows.groupby(["scheme", "model", "order"]):
         look = {**_symbol(looks[scheme]["color"], model, order), "alpha": 0.5}
         ax.plot(some["seconds"], 100 * some["sure_error"], zorder=2, **look)
