@@ -107,6 +107,17 @@ def test_columns_that_are_not_shown_are_told():
     assert "not shown here: 1 more" in words(figure)
 
 
+def test_what_no_run_has_gets_no_panel():
+    """As of waves where the truth is on a grid that is fitted to the grains."""
+    results = made_up()
+    rows = results.work_precision
+    rows.loc[rows["quantity"].str.contains("eta"), ["error", "sure_error", "truth"]] = np.nan
+    rows.loc[(rows["quantity"] == "x_front") & (rows["a_H"] == 10), "sure_error"] = np.nan
+    figure = work_precision.draw(results)
+    assert [ax for ax in figure.axes if ax.get_visible()] == panels(figure)
+    assert len(panels(figure)) == 3
+
+
 def test_a_study_without_the_table_gets_an_empty_figure():
     figure = work_precision.draw(SimpleNamespace(work_precision=pd.DataFrame()))
     assert "no such run" in figure.get_suptitle()

@@ -96,6 +96,17 @@ def test_profiles_of_two_grids_and_orders_lie_on_the_exact_one():
 
 
 @pytest.mark.parametrize("name", ["verify_orders", "verify_profiles"])
+def test_runs_without_one_size_of_cells_are_left_out(name):
+    study = MadeUp()
+    study.runs.loc[study.runs["id"].isin(study.errors["id"][study.errors["scene"] == "paraboloid"]), "dx"] = (
+        np.nan
+    )
+    figure = importlib.import_module(f"subslide.figures.{name}").draw(study)
+    titles = [ax.get_title() for ax in figure.axes if ax.has_data()]
+    assert titles == ["(a) surface wave, on a line", "(b) Ritter, grains alone"]
+
+
+@pytest.mark.parametrize("name", ["verify_orders", "verify_profiles"])
 def test_only_studies_with_these_scenes_have_the_figures(name):
     assert catalogue.figure(name).needs == {"scene": ("dam_break", "paraboloid", "standing_wave")}
     assert name in make_study({"study": "t", "cases": CASES, "delta": 0}).figures

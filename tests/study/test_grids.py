@@ -1,20 +1,20 @@
 """Runs on unlike grids, and on grids that move: in one record, out of it as they were, in tables and in words."""
 
-import functools
+import dataclasses
 import math
 
 import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
-from fitted import WAVES, fitted_run
+from fitted import WAVES, fitted
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from subslide import exact, jobs
+from subslide import exact, jobs, solver
 from subslide.pages import report
 from subslide.points import Point
-from subslide.records import by_run
+from subslide.records import by_run, thinning
 from subslide.records import netcdf as records
 from subslide.records import variables as layout
 from subslide.results import open_record, positions, trimmed
@@ -24,10 +24,10 @@ from subslide.tables import _norms
 ARRAYS = ("time", "x_front", "max_abs_eta", "snapshot_time", "h2", "eta")
 PROFILES = ("h2", "eta", "h2_diagonal", "h2_field", "eta_field")
 
-uniform = st.tuples(
+still = st.tuples(
     st.just("uniform"), st.integers(10, 30), st.integers(0, 9), st.sampled_from(("radial", "plane"))
 )
-fitted = st.tuples(st.just("fitted"), st.integers(2, 60), st.integers(1, 6), st.integers(0, 99))
+moving = st.tuples(st.just("fitted"), st.integers(2, 60), st.integers(1, 6), st.integers(0, 99))
 
 
 def made(make_run, kinds):
@@ -37,7 +37,7 @@ def made(make_run, kinds):
         if kind == "uniform":
             runs.append(make_run(Point(cells=cells, a_H=n + 1.0, model=more), steps=3 + n, grown=size))
         else:
-            runs.append(fitted_run(Point(cells=20, a_H=n + 1.0), more, size, cells))
+            runs.append(fitted(make_run(Point(cells=20, a_H=n + 1.0)), more, size, cells))
     return runs
 
 
@@ -47,7 +47,7 @@ def volumes(x, width, h2):
 
 
 @settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(kinds=st.lists(uniform | fitted, min_size=1, max_size=5))
+@given(kinds=st.lists(still | moving, min_size=1, max_size=5))
 def test_every_run_comes_back_as_it_was_whatever_is_beside_it(tmp_path, make_run, kinds):
     runs = made(make_run, kinds)
     path = tmp_path / "b.nc"
@@ -76,7 +76,7 @@ def test_every_run_comes_back_as_it_was_whatever_is_beside_it(tmp_path, make_run
 
 
 @settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(kind=uniform, others=st.lists(fitted, min_size=1, max_size=3))
+@given(kind=still, others=st.lists(moving, min_size=1, max_size=3))
 def test_a_run_on_a_uniform_grid_reads_alike_alone_and_beside_others(tmp_path, make_run, kind, others):
     runs = made(make_run, [kind, *others])
     answers = []
@@ -119,9 +119,27 @@ def test_runs_on_one_uniform_grid_have_the_layout_of_before(make_run, cells, sea
             assert np.isfinite(values).sum() == (0 if kept is None else kept.size)
 
 
+def test_a_volume_is_the_sum_of_its_rings(tmp_path):
+    """Of a solved run, its cells joined by ones, twos and threes in another order at each snapshot."""
+    run = solver.solve(Point(cells=60, t_end=0.2, snapshot_times=(0.05, 0.1), boundary="wall"))
+    random, count = np.random.default_rng(2), len(run.x)
+    sizes = [random.permutation([1, 2, 3] * (count // 6) + [1] * (count % 6)) for _ in run.snapshot_time]
+    first = np.cumsum(sizes, axis=1) - sizes
+    width = run.dx * np.array(sizes)
+    x = run.dx * first + width / 2
+    rings = [np.add.reduceat(run.x * run.dx * h2, start) for h2, start in zip(run.h2, first, strict=True)]
+    joined = dataclasses.replace(run, x=x, width=width, h2=rings / (x * width), eta=x * np.nan)
+    joined = dataclasses.replace(joined, grid="fitted", dx=np.nan)
+    records.write(tmp_path / "a.nc", [thinning.thinned(joined)])
+    with open_record(tmp_path / "a.nc") as data:
+        one = trimmed(data, run.point.id)
+        there = np.interp(one["snapshot_time"], one["time"], one["sediment_volume"])
+        np.testing.assert_allclose(volumes(one["x"], one["cell_width"], one["h2"]), there, rtol=1e-12)
+
+
 def test_positions_on_unlike_grids_are_coordinates_by_the_conventions(tmp_path, make_run):
     runs = [
-        fitted_run(Point(a_H=1.0)),
+        fitted(make_run(Point(a_H=1.0))),
         make_run(Point(cells=20, a_H=2.0)),
         make_run(Point(cells=30, a_H=3.0)),
     ]
@@ -141,23 +159,23 @@ def test_positions_on_unlike_grids_are_coordinates_by_the_conventions(tmp_path, 
         assert {"x", "snapshot_time", "id"} <= set(data["h2"].coords)
 
 
-def test_a_single_fitted_run_states_its_grid(tmp_path):
-    records.write(tmp_path / "a.nc", [fitted_run(Point(), grid_reason="auto: grains alone")])
+def test_a_single_fitted_run_states_its_grid(tmp_path, make_run):
+    records.write(tmp_path / "a.nc", [fitted(make_run(Point()), grid_reason="auto: grains alone")])
     _, attrs = records.read(tmp_path / "a.nc")
     assert (attrs["grid"], attrs["grid_reason"]) == ("fitted", "auto: grains alone")
 
 
-def test_a_position_that_was_changed_is_noticed(tmp_path):
-    records.write(tmp_path / "a.nc", [fitted_run(Point())])
+def test_a_position_that_was_changed_is_noticed(tmp_path, make_run):
+    records.write(tmp_path / "a.nc", [fitted(make_run(Point()))])
     with netCDF4.Dataset(tmp_path / "a.nc", "a") as data:
         data["x"][0, 1, 2] += 1e-15
     with pytest.raises(records.RecordError, match="checksum"):
         records.read(tmp_path / "a.nc")
 
 
-@pytest.mark.parametrize("other", [fitted_run, functools.partial(fitted_run, h2_diagonal=None)])
+@pytest.mark.parametrize("other", [fitted, lambda run: run])
 def test_fields_over_the_plane_need_one_grid(tmp_path, make_run, other):
-    runs = [make_run(Point(cells=20, model="plane", fields=True)), other(Point(a_H=3.0))]
+    runs = [make_run(Point(cells=20, model="plane", fields=True)), other(make_run(Point(a_H=3.0)))]
     with pytest.raises(ValueError, match="fields over the plane need one cell size"):
         records.write(tmp_path / "b.nc", runs)
     assert list(tmp_path.iterdir()) == []
@@ -171,7 +189,7 @@ def study(tmp_path, make_run, solve_study, write_tables):
         asked = {"study": "t", "model": "radial", "cells": 80, "a_H": [1, 2], "bands": True, **values}
 
         def solve(points):
-            return [fitted_run(p, wave_free_until=np.nan) if p.a_H == 2 else make_run(p) for p in points]
+            return [fitted(make_run(p)) if p.a_H == 2 else make_run(p) for p in points]
 
         solve_study(config.make_study(asked), tmp_path, solve)
         return write_tables(tmp_path)
@@ -207,7 +225,7 @@ def test_the_report_of_fitted_runs_leaves_waves_out(study):
 
 
 def test_the_line_on_a_fitted_run_names_its_grid_and_no_wave(make_run):
-    text = jobs.summary(fitted_run(Point(), grid_reason="auto: grains alone asked for"))
+    text = jobs.summary(fitted(make_run(Point()), grid_reason="auto: grains alone asked for"))
     assert "fitted grid (auto: grains alone asked for)" in text
     assert "nan" not in text
     assert "η" not in text

@@ -100,12 +100,6 @@ def test_a_batch_pads_short_runs_and_gives_each_back_whole(tmp_path, make_run):
         assert trimmed(data, runs[2].point.id)["h2_field"].shape == runs[2].h2_field.shape
 
 
-def test_runs_of_different_cells_do_not_share_a_record(tmp_path, make_run):
-    with pytest.raises(ValueError, match="one cell size"):
-        records.write(tmp_path / "b.nc", [make_run(Point(cells=40)), make_run(Point(cells=50))])
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_a_failed_run_is_a_record_too(tmp_path, make_run):
     run = make_run(Point(cells=40), status="diverged", time_at_rest=np.nan, L_f=np.full(3, np.nan))
     records.write(tmp_path / "f.nc", [run])

@@ -48,10 +48,10 @@ def draw(results: "Results") -> Figure:
     Figure
         A panel for each quantity and depth of water of which an error is known.
     """
-    table = results.work_precision
-    table = table[table["sure_error"].notna()]
-    if table.empty:
+    every = results.work_precision
+    if every.empty or every["sure_error"].isna().all():
         raise _style.NoRunsError("a sweep of numerics with a converged answer")
+    table = every[every["sure_error"].notna()]
     places = table[["a_H", "a_2", "r", "delta"]].drop_duplicates()
     shown = places.head(MOST_COLUMNS)
     looks = _style.looks_of(dict.fromkeys(table["scheme"]), palette="viridis", light=0.9)
@@ -77,7 +77,7 @@ def draw(results: "Results") -> Figure:
         figure,
         TITLE,
         ", ".join(same),
-        _notes(table, len(places) - len(shown)),
+        _notes(every, len(places) - len(shown)),
         _entries(looks, table),
         6,
         _lines(),

@@ -37,7 +37,7 @@ COLUMNS = {
     ),
     "status": ("", "how the run ended"),
     "seconds": ("s", "wall time of the time loop alone, one timing"),
-    "error": ("", "relative error; empty where the run failed"),
+    "error": ("", "relative error; empty where the run failed, or the truth is not known"),
     "sure_error": (
         "",
         "largest error on this and every finer grid of the same numerics, and no less than `uncertainty`: a grid that"
