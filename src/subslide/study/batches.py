@@ -75,9 +75,9 @@ def read_batch(spec: Path | str) -> list[Point]:
 def split(points: list[Point]) -> list[list[Point]]:
     """Return batches of points: one cell size and one set of kernels in each, balanced by estimated cost.
 
-    A record of unlike cell sizes repeats the positions and widths of cells at each snapshot, twice the bytes of its
-    profiles; so runs of unlike sizes share a process only if they must. The number of cores has no say, so that the
-    files of a study do not depend on it.
+    A record of unlike cell sizes repeats the places of cells at each snapshot: default runs on 200, 400 and 800 cells
+    take a third more bytes in one than in three. The number of cores has no say, so that the files of a study do not
+    depend on it.
     """
     groups: dict[tuple, list[Point]] = {}
     for point in points:
