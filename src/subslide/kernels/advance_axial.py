@@ -82,11 +82,11 @@ def step(s, c, left, right, fx, terms, mesh, active, end_kind, film, dt, acts):
     wet_start, wet_end = split(start, end, wet_first - GHOSTS, wet_last - GHOSTS)
     if s.order != 1:
         low, high = split(start, end + 2, wet_first - GHOSTS, wet_last - GHOSTS + 1)
-        faces(s, c, left, right, terms, mesh.source, low, high, dt)
+        faces(s, c, left, right, terms, mesh.source, None, low, high, dt)
         water_faces(s, c, left, right, terms, mesh.source, start, low, dt)
         water_faces(s, c, left, right, terms, mesh.source, high, end + 2, dt)
     low, high = split(start, end + 1, wet_first - GHOSTS, wet_last - GHOSTS)
-    fill_stuck(s, c, fx, low, high, dt)
+    fill_stuck(s, c, fx, None, low, high, dt)
     if s.layers == 1:
         grain_edges(s, fx, right, left, BEFORE, low, high)
     else:
@@ -96,8 +96,8 @@ def step(s, c, left, right, fx, terms, mesh, active, end_kind, film, dt, acts):
             film_edges(s, fx, right, left, BEFORE, 1, low, high)
         water_edges(s, fx, slow, fast, right, left, BEFORE, 1, start, low)
         water_edges(s, fx, slow, fast, right, left, BEFORE, 1, high, end + 1)
-    fill_terms(s, c, fx, terms, mesh, start, end, wet_start, wet_end, end_kind, dt)
-    update(s, c, fx, terms, mesh, start, end, wet_start, wet_end, dt, acts)
+    fill_terms(s, c, fx, terms, mesh, None, start, end, wet_start, wet_end, end_kind, dt)
+    update(s, c, fx, terms, mesh, None, start, end, wet_start, wet_end, dt, acts)
 
 
 @inlined
@@ -145,7 +145,7 @@ def advance(s, c, left, right, fx, terms, mesh, walls, watch, thresholds, track)
             code = k.NO_ROOM  # on the open sea no wave gets to an end
         if code == k.RUNNING:
             pace = max(pace, max(c.pace[0], c.pace[cells - 1]))
-            film = may_overtop(s, least1)
+            film = may_overtop(s, least1, s.dx)
             stable = k.stable_step(s, k.starting_pace(s, clock, film, pace), clock[k.STOP] - now)
             if stable < k.SMALLEST_STEP * s.dx:
                 code = k.COLLAPSED

@@ -82,7 +82,7 @@ def measure_row(s, c, j, rows, mesh, walls, watch, inside, span, row):
     span[WET_LOW], span[WET_HIGH] = wet_low, wet_high
     least1, least2, row[SQUARE2], pace = extremes(c.h1, c.h2, c.square2, c.pace, low, high)
     row[NEGATIVE] = min(least1, least2)
-    row[THIN] = 1.0 if may_overtop(s, least1) else 0.0
+    row[THIN] = 1.0 if may_overtop(s, least1, s.dx) else 0.0
     row[PACE] = max(pace, max(c.pace[0], c.pace[c.pace.shape[0] - 1]))
     row[RIM] = rim_depth(c.h2, j, rows, walls)
     watched = watch.bottom <= j < watch.top

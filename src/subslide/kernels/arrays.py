@@ -139,10 +139,50 @@ class CellTerms(NamedTuple):
     inner_p2y: np.ndarray
 
 
+class Fan(NamedTuple):
+    """Numbers of `motion.ends`, scaled: how the ends of the fan of a column that falls apart move."""
+
+    slack: float  # how far the fan reaches into the column at the start, and half of how far beyond it
+    wave: float  # speed of its left end
+    front: float  # speed of its right end at the start
+    brake: float  # by which that end is slowed down
+    share: float  # of the way of the last grains that it goes
+    evenly: float  # place of the left end over that of the right one when all cells up to it have one width
+    braked: float  # time when the right end stops
+    stop: float  # time when both have
+
+
+class Motion(NamedTuple):
+    """Cells of unequal sizes along a row of n, whose edges may move: edge e is at base + near left + far right.
+
+    left and right are the ends of the fan (see `motion.ends`), three known functions of time. Places and volumes are
+    float64; what a step takes of them is in the working precision, and from the same numbers.
+    """
+
+    base: np.ndarray
+    near: np.ndarray
+    far: np.ndarray
+    edges: np.ndarray  # (n + 1) now
+    ahead: np.ndarray  # at the end of a step
+    drift: np.ndarray  # velocity of each edge in a step (n + 1)
+    width: np.ndarray  # of each padded cell now
+    inverse_width: np.ndarray
+    before: np.ndarray  # weights of the differences to both neighbours in the slope of a padded cell
+    after: np.ndarray
+    gap: np.ndarray  # between the centres beside each edge (n + 1)
+    growth: np.ndarray  # of each cell (n): its volume before a step over that after it
+    lever: np.ndarray  # radius of each cell (n) in a step over its volume after it; on a line 1 over its width
+    turn: float  # what a volume per radian is taken times: 2 pi, or 2 for both halves of a line
+    mix: float
+    widest: float  # the largest distance of two centres where grains may be, ever
+    radial: float  # 1 in round scenes, 0 on a line
+
+
 class Mesh(NamedTuple):
     """Sizes along a row of n cells: radii, areas and lengths over R.
 
     In the plane cells are squares, `area` and `inverse_volume` are not used, and `weight` and `total` are of one row.
+    Where cells move, areas are of the middle of a step, inverse volumes of its end, and the others of now.
     """
 
     area: np.ndarray  # of each edge (n + 1): its radius in round scenes, 1 on a line

@@ -11,6 +11,7 @@ from subslide.kernels.friction import COULOMB
 from subslide.kernels.friction.coulomb import head
 from subslide.kernels.hyperbolicity import RUB, rub
 from subslide.kernels.jit import inlined, part
+from subslide.kernels.motion import gap_at, grown, over_width
 from subslide.kernels.positivity import limit, reference, share
 from subslide.kernels.printed import braking
 from subslide.kernels.slowing import first_reach, law_left, left_of
@@ -75,22 +76,23 @@ def water_cell_speeds(s, c, start, stop):
 
 
 @inlined
-def fill_stuck(s, c, fx, start, stop, dt):
+def fill_stuck(s, c, fx, motion, start, stop, dt):
     """Fill `stuck` of the edges start..stop-1: where friction holds the grains on both sides at rest."""
     first, count = part(start, stop)
     for m in range(count):
         k = m + first
         i = k + BEFORE
         push = c.head2[i + 1] - c.head2[i]
-        fx.stuck[k] = is_stuck(s, dt, c.square2[i], c.square2[i + 1], push * push)
+        gap = gap_at(motion, k, s.dx)
+        fx.stuck[k] = is_stuck(s, dt, gap, c.square2[i], c.square2[i + 1], push * push)
 
 
 @inlined
-def outflow_share(f, h, mesh, dry_depth, dt, k):
+def outflow_share(f, h, mesh, motion, dry_depth, dt, k):
     """Return the fraction of its outflow that a layer can feed in the cell between the edges k and k + 1."""
     zero = type(dt)(0)
     leaving = mesh.area[k + 1] * max(zero, f[k + 1]) - mesh.area[k] * min(zero, f[k])
-    return share(h[k + GHOSTS], dt * mesh.inverse_volume[k] * leaving, dry_depth)
+    return share(grown(motion, k, h[k + GHOSTS]), dt * mesh.inverse_volume[k] * leaving, dry_depth)
 
 
 @inlined
@@ -102,23 +104,23 @@ def slow_down(s, c, time):
 
 
 @inlined
-def fill_terms(s, c, fx, terms, mesh, start, stop, low, high, left, dt):
+def fill_terms(s, c, fx, terms, mesh, motion, start, stop, low, high, left, dt):
     """Fill `CellTerms` of cells, of grains in low..high-1; `keep` of ghosts stays 1 unless they stand for others."""
     first, count = part(start, stop)
     for m in range(count):
         k = m + first
-        terms.keep1[k + GHOSTS] = outflow_share(fx.f1, c.h1, mesh, s.dry_depth, dt, k)
+        terms.keep1[k + GHOSTS] = outflow_share(fx.f1, c.h1, mesh, motion, s.dry_depth, dt, k)
     first, count = part(low, high)
     for m in range(count):
         k = m + first
-        terms.keep2[k + GHOSTS] = outflow_share(fx.f2, c.h2, mesh, s.dry_depth, dt, k)
+        terms.keep2[k + GHOSTS] = outflow_share(fx.f2, c.h2, mesh, motion, s.dry_depth, dt, k)
         terms.held[k + GHOSTS] = min(fx.stuck[k], fx.stuck[k + 1])
     join(terms.keep1, left)
     join(terms.keep2, left)
 
 
 @inlined
-def advance_layer(s, h, u, flux, keep, inner, mesh, dt, k):
+def advance_layer(s, h, u, flux, keep, inner, mesh, motion, dt, k):
     """Return a layer's depth and momentum after a step, in the cell between the edges k and k + 1 (Eq. 6).
 
     `flux`: the layer's fluxes of mass and of momentum, and its pressure products.
@@ -127,13 +129,14 @@ def advance_layer(s, h, u, flux, keep, inner, mesh, dt, k):
     i = k + GHOSTS
     before = mesh.area[k] * dt * mesh.inverse_volume[k] * limit(f[k], keep[i - 1], keep[i])
     after = mesh.area[k + 1] * dt * mesh.inverse_volume[k] * limit(f[k + 1], keep[i], keep[i + 1])
-    push = dt / s.dx * (type(dt)(0.5) * (p[k] + p[k + 1]) + inner[i])
-    depth = h[i] + (before * f[k] - after * f[k + 1])
-    return depth, h[i] * u[i] + (before * m[k] - after * m[k + 1]) - push
+    push = over_width(motion, k, dt, s.dx) * (type(dt)(0.5) * (p[k] + p[k + 1]) + inner[i])
+    left = grown(motion, k, h[i])
+    depth = left + (before * f[k] - after * f[k + 1])
+    return depth, left * u[i] + (before * m[k] - after * m[k + 1]) - push
 
 
 @inlined
-def update(s, c, fx, terms, mesh, start, stop, low, high, dt, acts):
+def update(s, c, fx, terms, mesh, motion, start, stop, low, high, dt, acts):
     """Advance cells by dt, grains in low..high-1: fluxes, pressure, then friction.
 
     Friction acts for the time `acts` on grains that moved, on those at rest for dt.
@@ -143,14 +146,14 @@ def update(s, c, fx, terms, mesh, start, stop, low, high, dt, acts):
     first, count = part(start, stop)
     for m in range(count):
         k = m + first
-        h, q = advance_layer(s, c.h1, c.u1, water, terms.keep1, terms.inner_p1x, mesh, dt, k)
+        h, q = advance_layer(s, c.h1, c.u1, water, terms.keep1, terms.inner_p1x, mesh, motion, dt, k)
         depth = reference(c.h1[k + GHOSTS], h, terms.keep1[k + GHOSTS])
         c.h1[k + GHOSTS] = h
         c.u1[k + GHOSTS] = velocity(q, depth, s.dry_depth)
     first, count = part(low, high)
     for m in range(count):
         k = m + first
-        h, q = advance_layer(s, c.h2, c.u2, grains, terms.keep2, terms.inner_p2x, mesh, dt, k)
+        h, q = advance_layer(s, c.h2, c.u2, grains, terms.keep2, terms.inner_p2x, mesh, motion, dt, k)
         u = velocity(q, h, s.dry_depth)
         c.h2[k + GHOSTS] = h
         taken = reach if c.square2[k + GHOSTS] > type(dt)(0) else still_reach

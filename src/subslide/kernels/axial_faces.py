@@ -2,20 +2,20 @@
 
 from subslide.kernels.friction.coulomb import holds
 from subslide.kernels.jit import inlined, part, unsigned
+from subslide.kernels.motion import centre_drift, width_at
 from subslide.kernels.reconstruct import depth_slopes, grain_slopes, mc, rates
 
 
 @inlined
-def faces(s, c, left, right, terms, source, start, stop, dt):
+def faces(s, c, left, right, terms, source, motion, start, stop, dt):
     """Fill the states at both faces of cells, half a step on, and the pressure products across them: second order.
 
-    `source` is `Mesh.source`. Grains that friction can stop are not accelerated in the half step; moving ones feel no
+    `source` is `Mesh.source`. In cells that move the half step is seen by one who moves with their centres. Grains that friction can stop are not accelerated in the half step; moving ones feel no
     friction in it (more accurate on coarse grids, measured).
     """
     real = type(s.r)
     half = real(0.5)
     zero = real(0)
-    ratio = half * dt / s.dx
     static = (real(1) - s.r) * s.m
     reach = dt * static
     first, count = part(start, stop)
@@ -25,21 +25,26 @@ def faces(s, c, left, right, terms, source, start, stop, dt):
         u1 = c.u1[i]
         h2 = c.h2[i]
         u2 = c.u2[i]
-        s_u1 = mc(u1 - c.u1[i - 1], c.u1[i + 1] - u1)
+        width = width_at(motion, i, s.dx)
+        ratio = half * dt / width
+        drift = centre_drift(motion, i, zero)
+        s_u1 = mc(u1 - c.u1[i - 1], c.u1[i + 1] - u1, motion, i)
         moving = c.square2[i] > reach * reach
         s_h2, s_u2 = grain_slopes(
-            s.r, s.dry_depth, moving, c.h2[i - 1], c.u2[i - 1], h2, u2, c.h2[i + 1], c.u2[i + 1]
+            s.r, s.dry_depth, moving, c.h2[i - 1], c.u2[i - 1], h2, u2, c.h2[i + 1], c.u2[i + 1], motion, i
         )
         s_eta, s_h1, s_h2 = depth_slopes(
             h1,
             h2,
-            mc(c.eta[i] - c.eta[i - 1], c.eta[i + 1] - c.eta[i]),
+            mc(c.eta[i] - c.eta[i - 1], c.eta[i + 1] - c.eta[i], motion, i),
             s_h2,
         )
-        d_h1, d_u1, d_h2, d_u2 = rates(s.r, h1, u1, h2, u2, s_eta, s_h1, s_h2, s_u1, s_u2)
+        d_h1, d_u1, d_h2, d_u2 = rates(
+            s.r, h1, u1 - drift, h2, u2 - drift, s_eta, s_h1, s_h2, s_u1, s_u2
+        )
         change1 = max(-h1, ratio * d_h1 + dt * source[i] * h1 * u1)
         change2 = max(-h2, ratio * d_h2 + dt * source[i] * h2 * u2)
-        still = holds(reach, s.dx * static, c.square2[i], d_u2 * d_u2)
+        still = holds(reach, width * static, c.square2[i], d_u2 * d_u2)
         m_h1 = h1 + change1
         m_h2 = h2 + change2
         m_u1 = u1 + ratio * d_u1

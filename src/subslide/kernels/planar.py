@@ -120,7 +120,7 @@ def fill_stuck(s, c, stuck, rows, shift, step, start, stop, dt):
         normal = c.head2[n, there] - c.head2[p, here]
         along = quarter * (central_jump(c, p, i, step, across) + central_jump(c, n, i + step, step, across))
         push = normal * normal + along * along
-        stuck[unsigned(k)] = is_stuck(s, dt, c.square2[p, here], c.square2[n, there], push)
+        stuck[unsigned(k)] = is_stuck(s, dt, s.dx, c.square2[p, here], c.square2[n, there], push)
 
 
 @inlined

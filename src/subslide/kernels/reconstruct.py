@@ -7,19 +7,23 @@ flat surface over a slope stays flat.
 import math
 
 from subslide.kernels.jit import inlined
+from subslide.kernels.motion import central
 
 
 @inlined
-def mc(left, right):
-    """Return the monotonised central slope of two differences."""
+def mc(left, right, motion=None, i=0):
+    """Return the monotonised central slope, in a cell, of the differences to its neighbours.
+
+    `motion` and `i` say which cell it is where neighbours are of other sizes.
+    """
     real = type(left)
-    centre = real(0.5) * (left + right)
+    centre = central(motion, i, left, right)
     bound = real(2) * min(abs(left), abs(right))
     return math.copysign(min(abs(centre), bound), centre) if left * right > real(0) else real(0)
 
 
 @inlined
-def grain_slopes(r, dry_depth, moving, h_l, u_l, h, u, h_r, u_r):
+def grain_slopes(r, dry_depth, moving, h_l, u_l, h, u, h_r, u_r, motion=None, i=0):
     """Return the slopes of the grains' depth and normal velocity, limited in u -+ 2 sqrt(g (1-r) h2) if they move.
 
     These invariants of grains under still water are linear in the fan behind a front, where the depth is not: the
@@ -34,11 +38,12 @@ def grain_slopes(r, dry_depth, moving, h_l, u_l, h, u, h_r, u_r):
     c_r = two_root(reduced * h_r)
     tip_l = u - c if h_l <= dry_depth else u_l
     tip_r = u + c if h_r <= dry_depth else u_r
-    rising = mc((u + c) - (tip_l + c_l), (tip_r + c_r) - (u + c))
-    falling = mc((u - c) - (tip_l - c_l), (tip_r - c_r) - (u - c))
+    rising = mc((u + c) - (tip_l + c_l), (tip_r + c_r) - (u + c), motion, i)
+    falling = mc((u - c) - (tip_l - c_l), (tip_r - c_r) - (u - c), motion, i)
     s_h = half * half * c * (rising - falling) / reduced
     s_u = half * (rising + falling)
-    return (s_h if moving else mc(h - h_l, h_r - h)), (s_u if moving else mc(u - u_l, u_r - u))
+    s_still = mc(h - h_l, h_r - h, motion, i), mc(u - u_l, u_r - u, motion, i)
+    return (s_h if moving else s_still[0]), (s_u if moving else s_still[1])
 
 
 @inlined

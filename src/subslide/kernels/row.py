@@ -13,13 +13,17 @@ from subslide.kernels.edge.stuck import sees_friction
 from subslide.kernels.edge.two_layers import edge_fluxes
 from subslide.kernels.edge.water import water_edge_fluxes
 from subslide.kernels.jit import inlined, maximum, part, unsigned
+from subslide.kernels.motion import carried_past, past
 from subslide.kernels.positivity import donor
 from subslide.kernels.printed import carried
 
 
 @inlined
-def edges(s, f, slow, fast, before, after, shift, step, start, stop):
-    """Fill the fluxes of mass and normal momentum through the edges start..stop-1 of a row."""
+def edges(s, f, slow, fast, before, after, shift, step, start, stop, drift=None):
+    """Fill the fluxes of mass and normal momentum through the edges start..stop-1 of a row.
+
+    drift: velocities of the edges where they move, else None: fluxes are what passes them.
+    """
     zero = type(s.r)(0)
     slow_i, slow_j = slow
     fast_i, fast_j = fast
@@ -31,12 +35,14 @@ def edges(s, f, slow, fast, before, after, shift, step, start, stop):
         f.f1[k], f.m1[k], f.p1[k], f.f2[k], f.m2[k], f.p2[k] = edge_fluxes(
             s,
             f.stuck[k] != zero,
-            min(slow_i[i], slow_j[j]),
-            max(fast_i[i], fast_j[j]),
-            Normal(before.h1[i], before.u1[i], before.h2[i], before.u2[i]),
-            Normal(after.h1[j], after.u1[j], after.h2[j], after.u2[j]),
+            past(drift, k, min(slow_i[i], slow_j[j])),
+            past(drift, k, max(fast_i[i], fast_j[j])),
+            Normal(before.h1[i], past(drift, k, before.u1[i]), before.h2[i], past(drift, k, before.u2[i])),
+            Normal(after.h1[j], past(drift, k, after.u1[j]), after.h2[j], past(drift, k, after.u2[j])),
             after.eta[j] - before.eta[i],
         )
+        f.m1[k] = carried_past(drift, k, f.m1[k], f.f1[k])
+        f.m2[k] = carried_past(drift, k, f.m2[k], f.f2[k])
 
 
 @maximum
@@ -91,8 +97,8 @@ def water_edges(s, f, slow, fast, before, after, shift, step, start, stop):
 
 
 @inlined
-def grain_edges(s, f, before, after, shift, start, stop):
-    """Fill the fluxes through the edges start..stop-1 of a row of grains alone."""
+def grain_edges(s, f, before, after, shift, start, stop, drift=None):
+    """Fill the fluxes through the edges start..stop-1 of a row of grains alone; drift as for `edges`."""
     zero = type(s.r)(0)
     first, count = part(start, stop)
     for m in range(count):
@@ -100,8 +106,14 @@ def grain_edges(s, f, before, after, shift, start, stop):
         i = k + shift
         j = i + 1
         f.f2[k], f.m2[k], f.p2[k] = grain_edge_fluxes(
-            s, f.stuck[k] != zero, before.h2[i], before.u2[i], after.h2[j], after.u2[j]
+            s,
+            f.stuck[k] != zero,
+            before.h2[i],
+            past(drift, k, before.u2[i]),
+            after.h2[j],
+            past(drift, k, after.u2[j]),
         )
+        f.m2[k] = carried_past(drift, k, f.m2[k], f.f2[k])
 
 
 @inlined

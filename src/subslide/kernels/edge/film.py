@@ -19,9 +19,9 @@ LOOKED_FOR = 8.0
 
 
 @inlined
-def may_overtop(s, shallowest):
-    """Return whether water of this least depth is so thin that some step may overtop it."""
-    return shallowest < type(s.m)(LOOKED_FOR) * s.m * s.dx
+def may_overtop(s, shallowest, dx):
+    """Return whether water of this least depth is so thin that some step over cells of a size may overtop it."""
+    return shallowest < type(s.m)(LOOKED_FOR) * s.m * dx
 
 
 @inlined

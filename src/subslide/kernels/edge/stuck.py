@@ -28,9 +28,12 @@ def by_weight(h2_i, h2_j, d_head):
 
 
 @inlined
-def is_stuck(s, dt, square_i, square_j, push_squared):
-    """Return 1 if friction holds the grains on both sides of an edge, else 0; see `friction.coulomb.holds`."""
+def is_stuck(s, dt, gap, square_i, square_j, push_squared):
+    """Return 1 if friction holds the grains on both sides of an edge, else 0; see `friction.coulomb.holds`.
+
+    `gap` is the distance between the centres of both cells.
+    """
     real = type(s.r)
     static = (real(1) - s.r) * s.m
-    held = holds(dt * static, s.dx * static, max(square_i, square_j), push_squared)
+    held = holds(dt * static, gap * static, max(square_i, square_j), push_squared)
     return real(1) if held else real(0)

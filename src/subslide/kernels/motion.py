@@ -1,0 +1,177 @@
+"""Cells of unequal sizes whose edges move as known functions of time (see `models.fan`), and what a step takes of them.
+
+Functions of `Motion` take None too, for cells of one size at rest: then they are compiled to nothing.
+"""
+
+from subslide.kernels.arrays import GHOSTS
+from subslide.kernels.jit import inlined, part
+from subslide.kernels.waves import grain_speeds
+
+
+@inlined
+def past(drift, k, u):
+    """Return a velocity as edge k sees it."""
+    if drift is None:
+        return u
+    return u - drift[k]
+
+
+@inlined
+def carried_past(drift, k, m, f):
+    """Return the flux of momentum through edge k from the one that moves with it."""
+    if drift is None:
+        return m
+    return m + drift[k] * f
+
+
+@inlined
+def central(motion, i, left, right):
+    """Return the slope in padded cell i of the parabola through three means, from its differences to its neighbours."""
+    if motion is None:
+        return type(left)(0.5) * (left + right)
+    return motion.before[i] * left + motion.after[i] * right
+
+
+@inlined
+def width_at(motion, i, dx):
+    """Return the width of padded cell i."""
+    if motion is None:
+        return dx
+    return motion.width[i]
+
+
+@inlined
+def gap_at(motion, k, dx):
+    """Return the distance of the centres beside edge k."""
+    if motion is None:
+        return dx
+    return motion.gap[k]
+
+
+@inlined
+def centre_drift(motion, i, zero):
+    """Return the velocity of the centre of padded cell i."""
+    if motion is None:
+        return zero
+    return type(zero)(0.5) * (motion.drift[i - GHOSTS] + motion.drift[i - GHOSTS + 1])
+
+
+@inlined
+def grown(motion, k, h):
+    """Return what the depth of cell k becomes in a step by its growth alone."""
+    if motion is None:
+        return h
+    return motion.growth[k] * h
+
+
+@inlined
+def over_width(motion, k, dt, dx):
+    """Return what a step does by forces on the sides of cell k, over the difference of their pressures."""
+    if motion is None:
+        return dt / dx
+    return dt * motion.lever[k]
+
+
+@inlined
+def ends(fan, time):
+    """Return where the left and the right end of the fan are.
+
+    The right end goes a share of the way of the last grains of a dam break that friction slows down; the left one with
+    the first wave into the column, until all cells up to the right end have one width.
+    """
+    slack, wave, front, brake, share, evenly, braked, stop = fan
+    t = min(time, braked)
+    right = 1.0 + 2.0 * slack + share * t * (front - 0.5 * brake * t)
+    falling = 1.0 - slack - wave * time
+    return (max(falling, evenly * right) if time < stop else evenly * right), right
+
+
+@inlined
+def end_speeds(fan, time):
+    """Return the velocities of both ends."""
+    slack, wave, front, brake, share, evenly, braked, stop = fan
+    _, right = ends(fan, time)
+    fast = share * (front - brake * time) if time < braked else 0.0
+    falls = 1.0 - slack - wave * time > evenly * right and time < stop
+    return (-wave if falls else evenly * fast), fast
+
+
+@inlined
+def place(mesh, motion):
+    """Fill what follows from where the edges are now."""
+    real = type(mesh.source[0])
+    x, width = motion.edges, motion.width
+    half = real(0.5)
+    flat = 1.0 - motion.radial
+    first, count = part(0, x.shape[0] - 1)
+    for m in range(count):
+        k = m + first
+        size = x[k + 1] - x[k]
+        centre = 0.5 * (x[k + 1] + x[k])
+        width[k + GHOSTS] = size
+        motion.inverse_width[k + GHOSTS] = 1.0 / size
+        mesh.source[k + GHOSTS] = -0.5 * motion.radial / centre
+        mesh.weight[k + GHOSTS] = motion.turn * size * (flat + motion.radial * centre)
+    for g in range(GHOSTS):
+        width[g] = width[GHOSTS]
+        width[count + GHOSTS + g] = width[count + GHOSTS - 1]
+    for m in range(count):
+        k = m + first
+        size = width[k + GHOSTS]
+        left = width[k + GHOSTS - 1] + size
+        right = width[k + GHOSTS + 1] + size
+        scale = (size + size) / (left * right * (left + right))
+        motion.before[k + GHOSTS] = right * right * scale
+        motion.after[k + GHOSTS] = left * left * scale
+        motion.gap[k] = half * left
+    motion.gap[count] = width[count + GHOSTS]
+
+
+@inlined
+def sweep(mesh, motion, fan, now, dt):
+    """Fill where the edges will be after a step, and what the step takes of their way."""
+    x, ahead = motion.edges, motion.ahead
+    left, right = ends(fan, now + dt)
+    often = 1.0 / dt
+    flat = 1.0 - motion.radial
+    first, count = part(0, x.shape[0] - 1)
+    for m in range(count):
+        k = m + first + 1
+        ahead[k] = motion.base[k] + motion.near[k] * left + motion.far[k] * right
+        motion.drift[k] = (ahead[k] - x[k]) * often
+        mesh.area[k] = flat + motion.radial * 0.5 * (ahead[k] + x[k])
+    for m in range(count):
+        k = m + first
+        centre = 0.5 * (ahead[k + 1] + ahead[k])
+        then = (ahead[k + 1] - ahead[k]) * (flat + motion.radial * centre)
+        before = (x[k + 1] - x[k]) * (flat + motion.radial * 0.5 * (x[k + 1] + x[k]))
+        mesh.inverse_volume[k] = 1.0 / then
+        motion.growth[k] = before / then
+        motion.lever[k] = (flat + motion.radial * 0.25 * (ahead[k + 1] + ahead[k] + x[k + 1] + x[k])) / then
+
+
+@inlined
+def arrive(mesh, motion):
+    """Put the edges where the step has taken them."""
+    first, count = part(0, motion.edges.shape[0])
+    for m in range(count):
+        motion.edges[m + first] = motion.ahead[m + first]
+    place(mesh, motion)
+
+
+@inlined
+def relative_pace(s, c, motion, fan, now):
+    """Fill `pace` anew: the fastest wave that a cell's edges see, over its width in units of `s.dx`."""
+    near, far = end_speeds(fan, now) if now < fan.stop else (0.0, 0.0)
+    real = type(s.r)
+    left, right = real(near), real(far)
+    first, count = part(0, motion.edges.shape[0] - 1)
+    for m in range(count):
+        k = m + first
+        i = k + GHOSTS
+        before = motion.near[k] * left + motion.far[k] * right
+        after = motion.near[k + 1] * left + motion.far[k + 1] * right
+        slow, fast = c.slow_x[i], c.fast_x[i]
+        if s.layers == 1:
+            slow, fast = grain_speeds(c.h2[i], c.u2[i])
+        c.pace[i] = max(fast - before, after - slow) * (s.dx * motion.inverse_width[i])
