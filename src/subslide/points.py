@@ -20,6 +20,9 @@ PAPER_WIDTH = 0.6
 PAPER_TIMES = (0.08, 0.16, 0.24, 0.54)
 """Times (s) after release at which the paper shows its column."""
 
+REST_CAP = 60.0
+"""Cap on runs to rest, in R / sqrt(g H2 (1-r)): the paper's slowest column rests at 5, a_2 = 1.5, delta = 20 at 9."""
+
 PAPER_BOX = 0.3 / PAPER_RADIUS
 """Half-width over R of the paper's box, where the water surface is watched in a box of any size."""
 
@@ -148,6 +151,17 @@ class Point(Values):
         return math.tan(math.radians(self.delta)) / self.a_2
 
     @property
+    def least_friction(self) -> float:
+        """Least friction number of grains that move."""
+        angle = min(self.delta, self.delta_2) if self.friction == "pouliquen" else self.delta
+        return math.tan(math.radians(angle)) / self.a_2
+
+    @property
+    def latest_end(self) -> float:
+        """Time (s) at which a run ends at the latest: `t_end`, or the cap on runs to rest."""
+        return REST_CAP / math.sqrt(1.0 - self.r) * self.time_scale if self.t_end is None else self.t_end
+
+    @property
     def turbulence(self) -> float:
         """Number g/(xi a_2) by which Voellmy's turbulence enters the scaled equations."""
         return self.g / (self.xi * self.a_2)
@@ -210,11 +224,14 @@ def canonical(point: Point) -> str:
     """Return the text of a point in one number format and one order of keys; equal points give equal texts.
 
     A file that its scene reads is known by its content, which is one of the options, and not by its path; a value that
-    has meant something else before, by another word.
+    has meant something else before, by another word. Keys that came later are left out where they change nothing.
     """
     values = to_dict(point)
     for key, words in names.KNOWN_AS.items():
         values[key] = words.get(values[key], values[key])
+    for key, before in names.LATER.items():
+        if values[key] == before:
+            del values[key]
     for name in catalogue.options_that_read(point.scene):
         values["scene_options"].pop(name, None)
     return json.dumps(values, separators=(",", ":"), sort_keys=True)

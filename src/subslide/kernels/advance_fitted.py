@@ -4,18 +4,19 @@ Every cell is solved in every step, since waves cross so few of them at once. Lo
 after them: whole vectors, if `cells` is.
 """
 
+import numpy as np
 from numba import prange
 
 from subslide.kernels import clock as k
 from subslide.kernels import measures, samples
 from subslide.kernels.active import grain_span
-from subslide.kernels.arrays import BEFORE, GHOSTS
+from subslide.kernels.arrays import BEFORE, GHOSTS, is_general
 from subslide.kernels.axial import cell_speeds, fill_ghosts, fill_stuck, fill_terms, slow_down, update
 from subslide.kernels.axial_faces import faces
 from subslide.kernels.boundary import WALL
 from subslide.kernels.edge.film import may_overtop
 from subslide.kernels.front import front_position
-from subslide.kernels.hyperbolicity import judged
+from subslide.kernels.hyperbolicity import STOP, judged
 from subslide.kernels.jit import inlined, launch
 from subslide.kernels.measures import RowSpan
 from subslide.kernels.motion import arrive, relative_pace, sweep
@@ -23,25 +24,37 @@ from subslide.kernels.reduce import extremes
 from subslide.kernels.row import edges, film_edges, grain_edges
 
 
+OFTEN = 8
+"""Steps after which volumes, energy and hyperbolicity are measured; fronts are in each."""
+
+
 @inlined
 def sample(s, c, mesh, motion, watch, thresholds, wet, now, row):
-    """Write one sample into `row`, by the columns of `samples`; what is asked of waves is not known here."""
-    cells = c.h1.shape[0]
+    """Write time and fronts into `row`, by the columns of `samples`; the others are not known."""
+    row[:] = np.nan
     row[samples.TIME] = now
     for m in range(samples.FRONTS):
         row[samples.FRONT + m] = front_position(
             c.h2, c.h2, watch.beside, wet[1], thresholds[m], s.dx, motion
         )
-    row[samples.GAUGE] = 0.0
+
+
+@inlined
+def measure(s, c, mesh, watch, wet, row):
+    """Write what is measured of a state into `row`; no surface is watched, so that its columns mean nothing."""
+    cells = c.h1.shape[0]
     span = RowSpan(GHOSTS, cells - GHOSTS, wet[0], wet[1], GHOSTS, GHOSTS, GHOSTS, GHOSTS)
     measures.fill(s, c, mesh, watch, span, row, samples.MEASURED)
 
 
 @inlined
-def mirror_speeds(c):
-    """Give the ghosts beside both ends the wave speeds of the mirrored cells."""
+def mirror(c):
+    """Give the ghosts beside both ends what follows from the state of the mirrored cells."""
     last = c.h1.shape[0] - GHOSTS
     for ghost, source in ((GHOSTS - 1, GHOSTS), (last, last - 1)):
+        c.eta[ghost] = c.eta[source]
+        c.head2[ghost] = c.head2[source]
+        c.square2[ghost] = c.square2[source]
         c.slow_x[ghost] = -c.fast_x[source]
         c.fast_x[ghost] = -c.slow_x[source]
 
@@ -70,19 +83,16 @@ def fluxes(s, c, left, right, fx, drift, film, first, stop):
 
 @inlined
 def step(s, c, left, right, fx, terms, mesh, motion, moves, film, dt, acts):
-    """Advance all cells by dt; see `advance_axial.step`. moves: whether any edge does, so that friction holds none."""
+    """Advance all cells by dt; see `advance_axial.step`. moves: whether any edge does, so that none is stuck."""
     n = c.h1.shape[0] - 2 * GHOSTS
     if s.order != 1:
         faces(s, c, left, right, terms, mesh.source, motion, BEFORE, n + BEFORE, dt)
         mirror_face(right, GHOSTS - 1, left, GHOSTS)
         mirror_face(left, n + GHOSTS, right, n + GHOSTS - 1)
-    if moves:
-        fx.stuck[:] = 0
-    else:
-        fill_stuck(s, c, fx, motion, 1, n + 1, dt)
+    if not moves:
+        fill_stuck(s, c, fx, motion, 0, n + 1, dt)
     fluxes(s, c, left, right, fx, motion.drift, film, 1, n + 1)
     if motion.radial == 0.0:  # no area is at the axis of a round scene
-        fill_stuck(s, c, fx, motion, 0, 1, dt)
         fluxes(s, c, left, right, fx, motion.drift, film, 0, 1)
     fill_terms(s, c, fx, terms, mesh, motion, 0, n, 0, n, WALL, dt)
     update(s, c, fx, terms, mesh, motion, 0, n, 0, n, dt, acts)
@@ -100,15 +110,18 @@ def advance(s, c, left, right, fx, terms, mesh, motion, fan, watch, thresholds, 
         now = clock[k.NOW]
         fill_ghosts(c, WALL, WALL)
         cell_speeds(s, c, GHOSTS, cells - GHOSTS)
-        mirror_speeds(c)
+        mirror(c)
         relative_pace(s, c, motion, fan, now)
         wet = grain_span(c.h2, c.u2, c.v2, GHOSTS, cells - GHOSTS)
         row = track.samples[n]
+        due = clock[k.UNMEASURED] == 0.0 or now >= clock[k.STOP] or (is_general(s) and s.treatment == STOP)
         sample(s, c, mesh, motion, watch, thresholds, wet, now, row)
+        if due:
+            measure(s, c, mesh, watch, wet, row)
         least1, shallowest, square2, pace = extremes(c.h1, c.h2, c.square2, c.pace, GHOSTS, cells - GHOSTS)
         n += 1
         full = n == track.samples.shape[0]
-        code = k.outcome(clock, samples.is_finite(row), min(least1, shallowest), square2, False, full)
+        code = k.outcome(clock, not due or samples.is_finite(row), min(least1, shallowest), square2, False, full)
         code = judged(s, code, row[samples.COMPLEX])
         if code == k.RUNNING:
             film = may_overtop(s, least1, motion.widest)
@@ -129,6 +142,11 @@ def advance(s, c, left, right, fx, terms, mesh, motion, fan, watch, thresholds, 
                 if moves:
                     arrive(mesh, motion)
                 clock[k.NOW] = then
+                clock[k.UNMEASURED] = (clock[k.UNMEASURED] + 1.0) % OFTEN
+        elif not due:
+            measure(s, c, mesh, watch, wet, row)
+            if not samples.is_finite(row):
+                code = k.NOT_FINITE
     counters[k.SAMPLES] = n
     counters[k.OUTCOME] = code
 

@@ -146,7 +146,6 @@ class Fan(NamedTuple):
     wave: float  # speed of its left end
     front: float  # speed of its right end at the start
     brake: float  # by which that end is slowed down
-    share: float  # of the way of the last grains that it goes
     evenly: float  # place of the left end over that of the right one when all cells up to it have one width
     braked: float  # time when the right end stops
     stop: float  # time when both have
@@ -170,10 +169,9 @@ class Motion(NamedTuple):
     before: np.ndarray  # weights of the differences to both neighbours in the slope of a padded cell
     after: np.ndarray
     gap: np.ndarray  # between the centres beside each edge (n + 1)
-    growth: np.ndarray  # of each cell (n): its volume before a step over that after it
+    growth: np.ndarray  # of each cell (n): its volume before a step over that after it, less 1
     lever: np.ndarray  # radius of each cell (n) in a step over its volume after it; on a line 1 over its width
     turn: float  # what a volume per radian is taken times: 2 pi, or 2 for both halves of a line
-    mix: float
     widest: float  # the largest distance of two centres where grains may be, ever
     radial: float  # 1 in round scenes, 0 on a line
 

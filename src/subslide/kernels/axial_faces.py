@@ -2,7 +2,7 @@
 
 from subslide.kernels.friction.coulomb import holds
 from subslide.kernels.jit import inlined, part, unsigned
-from subslide.kernels.motion import centre_drift, width_at
+from subslide.kernels.motion import centre_drift, share_of_width, width_at
 from subslide.kernels.reconstruct import depth_slopes, grain_slopes, mc, rates
 
 
@@ -26,7 +26,7 @@ def faces(s, c, left, right, terms, source, motion, start, stop, dt):
         h2 = c.h2[i]
         u2 = c.u2[i]
         width = width_at(motion, i, s.dx)
-        ratio = half * dt / width
+        ratio = share_of_width(motion, i, half * dt, s.dx)
         drift = centre_drift(motion, i, zero)
         s_u1 = mc(u1 - c.u1[i - 1], c.u1[i + 1] - u1, motion, i)
         moving = c.square2[i] > reach * reach

@@ -10,7 +10,7 @@ from subslide.keys.names import SCHEMES, flags
 RUNNING, REACHED, AT_REST, FRONT_AT_EDGE, NOT_FINITE, NEGATIVE, COLLAPSED, FULL, SHEARED, NO_ROOM = range(10)
 
 # Indices into the float64 array `clock`.
-NOW, STOP, REST_FROM, REST_SINCE, AHEAD = range(5)
+NOW, STOP, REST_FROM, REST_SINCE, AHEAD, UNMEASURED = range(6)
 
 # Indices into the int64 array `counters`.
 SAMPLES, OUTCOME = range(2)
@@ -23,7 +23,7 @@ SMALLEST_STEP = 1e-6
 
 def started(stop=0.0):
     """Return the `clock` of a run that starts now and does not end at rest."""
-    return np.array([0.0, stop, math.inf, -1.0, 0.0])
+    return np.array([0.0, stop, math.inf, -1.0, 0.0, 0.0])
 
 
 @inlined

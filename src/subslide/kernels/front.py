@@ -1,7 +1,5 @@
 """The front of the grains along an axis."""
 
-import math
-
 from subslide.kernels.arrays import GHOSTS
 from subslide.kernels.jit import inlined
 
@@ -23,10 +21,6 @@ def front_position(h, other, start, stop, threshold, dx, motion=None):
     here = half * (h[i] + other[i])
     beyond = half * (h[i + 1] + other[i + 1])
     fraction = (here - threshold) / (here - beyond) if beyond < threshold else real(0)
-    if motion is not None:
-        root = math.sqrt(here)
-        f2 = (root - math.sqrt(threshold)) / (root - math.sqrt(beyond)) if beyond < threshold else real(0)
-        fraction = motion.mix * f2 + (1 - motion.mix) * fraction
     return distance(motion, i, start, fraction, dx)
 
 

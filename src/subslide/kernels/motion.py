@@ -41,6 +41,14 @@ def width_at(motion, i, dx):
 
 
 @inlined
+def share_of_width(motion, i, dt, dx):
+    """Return a time over the width of padded cell i."""
+    if motion is None:
+        return dt / dx
+    return dt * motion.inverse_width[i]
+
+
+@inlined
 def gap_at(motion, k, dx):
     """Return the distance of the centres beside edge k."""
     if motion is None:
@@ -61,7 +69,7 @@ def grown(motion, k, h):
     """Return what the depth of cell k becomes in a step by its growth alone."""
     if motion is None:
         return h
-    return motion.growth[k] * h
+    return h + motion.growth[k] * h
 
 
 @inlined
@@ -76,12 +84,12 @@ def over_width(motion, k, dt, dx):
 def ends(fan, time):
     """Return where the left and the right end of the fan are.
 
-    The right end goes a share of the way of the last grains of a dam break that friction slows down; the left one with
-    the first wave into the column, until all cells up to the right end have one width.
+    The right end is slowed down evenly until it stands; the left one goes with the first wave into the column, until all
+    cells up to the right end have one width.
     """
-    slack, wave, front, brake, share, evenly, braked, stop = fan
+    slack, wave, front, brake, evenly, braked, stop = fan
     t = min(time, braked)
-    right = 1.0 + 2.0 * slack + share * t * (front - 0.5 * brake * t)
+    right = 1.0 + 2.0 * slack + t * (front - 0.5 * brake * t)
     falling = 1.0 - slack - wave * time
     return (max(falling, evenly * right) if time < stop else evenly * right), right
 
@@ -89,9 +97,9 @@ def ends(fan, time):
 @inlined
 def end_speeds(fan, time):
     """Return the velocities of both ends."""
-    slack, wave, front, brake, share, evenly, braked, stop = fan
+    slack, wave, front, brake, evenly, braked, stop = fan
     _, right = ends(fan, time)
-    fast = share * (front - brake * time) if time < braked else 0.0
+    fast = front - brake * time if time < braked else 0.0
     falls = 1.0 - slack - wave * time > evenly * right and time < stop
     return (-wave if falls else evenly * fast), fast
 
@@ -145,9 +153,10 @@ def sweep(mesh, motion, fan, now, dt):
         centre = 0.5 * (ahead[k + 1] + ahead[k])
         then = (ahead[k + 1] - ahead[k]) * (flat + motion.radial * centre)
         before = (x[k + 1] - x[k]) * (flat + motion.radial * 0.5 * (x[k + 1] + x[k]))
-        mesh.inverse_volume[k] = 1.0 / then
-        motion.growth[k] = before / then
-        motion.lever[k] = (flat + motion.radial * 0.25 * (ahead[k + 1] + ahead[k] + x[k + 1] + x[k])) / then
+        inverse = 1.0 / then
+        mesh.inverse_volume[k] = inverse
+        motion.growth[k] = (before - then) * inverse
+        motion.lever[k] = (flat + motion.radial * 0.25 * (ahead[k + 1] + ahead[k] + x[k + 1] + x[k])) * inverse
 
 
 @inlined
@@ -161,7 +170,7 @@ def arrive(mesh, motion):
 
 @inlined
 def relative_pace(s, c, motion, fan, now):
-    """Fill `pace` anew: the fastest wave that a cell's edges see, over its width in units of `s.dx`."""
+    """Fill `pace` anew: how fast waves from one edge of a cell near the other, over its width in units of `s.dx`."""
     near, far = end_speeds(fan, now) if now < fan.stop else (0.0, 0.0)
     real = type(s.r)
     left, right = real(near), real(far)
@@ -174,4 +183,4 @@ def relative_pace(s, c, motion, fan, now):
         slow, fast = c.slow_x[i], c.fast_x[i]
         if s.layers == 1:
             slow, fast = grain_speeds(c.h2[i], c.u2[i])
-        c.pace[i] = max(fast - before, after - slow) * (s.dx * motion.inverse_width[i])
+        c.pace[i] = max(fast - after, before - slow) * (s.dx * motion.inverse_width[i])

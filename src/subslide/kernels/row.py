@@ -32,7 +32,7 @@ def edges(s, f, slow, fast, before, after, shift, step, start, stop, drift=None)
         k = unsigned(m + first)
         i = unsigned(m + first + shift)
         j = unsigned(m + first + shift + step)
-        f.f1[k], f.m1[k], f.p1[k], f.f2[k], f.m2[k], f.p2[k] = edge_fluxes(
+        f1, m1, f.p1[k], f2, m2, f.p2[k] = edge_fluxes(
             s,
             f.stuck[k] != zero,
             past(drift, k, min(slow_i[i], slow_j[j])),
@@ -41,8 +41,8 @@ def edges(s, f, slow, fast, before, after, shift, step, start, stop, drift=None)
             Normal(after.h1[j], past(drift, k, after.u1[j]), after.h2[j], past(drift, k, after.u2[j])),
             after.eta[j] - before.eta[i],
         )
-        f.m1[k] = carried_past(drift, k, f.m1[k], f.f1[k])
-        f.m2[k] = carried_past(drift, k, f.m2[k], f.f2[k])
+        f.f1[k], f.m1[k] = f1, carried_past(drift, k, m1, f1)
+        f.f2[k], f.m2[k] = f2, carried_past(drift, k, m2, f2)
 
 
 @maximum
@@ -105,7 +105,7 @@ def grain_edges(s, f, before, after, shift, start, stop, drift=None):
         k = m + first
         i = k + shift
         j = i + 1
-        f.f2[k], f.m2[k], f.p2[k] = grain_edge_fluxes(
+        f2, m2, f.p2[k] = grain_edge_fluxes(
             s,
             f.stuck[k] != zero,
             before.h2[i],
@@ -113,7 +113,7 @@ def grain_edges(s, f, before, after, shift, start, stop, drift=None):
             after.h2[j],
             past(drift, k, after.u2[j]),
         )
-        f.m2[k] = carried_past(drift, k, f.m2[k], f.f2[k])
+        f.f2[k], f.m2[k] = f2, carried_past(drift, k, m2, f2)
 
 
 @inlined

@@ -129,9 +129,9 @@ ENTRIES: dict[str, Entry] = {
     "max_disk": limit("disk, as estimated, that records and tables may take", 20, "GB", 1e-3, 1e6),
     "numerics": {
         "role": PRESET,
-        "description": "named set of model, scheme, order, cells, front_flux and boundary; keys written out win over"
-        " it",
-        "enum": ["default", "paper", "resolved"],
+        "description": "named set of model, scheme, order, cells, grid, front_flux, boundary and quantities; keys"
+        " written out win over it",
+        "enum": ["default", "paper", "resolved", "fronts"],
         "default": "default",
         "axis": True,
         "presets": {
@@ -145,6 +145,7 @@ ENTRIES: dict[str, Entry] = {
                 "boundary": "paper",
             },
             "resolved": {"model": "auto", "scheme": "ifcph", "order": 2, "cells": 3200},
+            "fronts": {"quantities": "grains", "grid": "fitted", "cells": 48},
         },
     },
     "a_H": number(
@@ -250,7 +251,8 @@ ENTRIES: dict[str, Entry] = {
     "order": choice(METHOD, "order of accuracy in space and time", 2, [1, 2]),
     "cells": {
         "role": METHOD,
-        "description": "cell size as a count: dx = 0.6 m / cells at R = 0.0705 m, in proportion to R elsewhere",
+        "description": "cell size as a count: dx = 0.6 m / cells at R = 0.0705 m, in proportion to R elsewhere; on a"
+        " fitted grid the number of cells, best a multiple of 8 (of 16 in float32), such as 48",
         "type": "integer",
         "minimum": 10,
         "maximum": 100000,
@@ -258,6 +260,14 @@ ENTRIES: dict[str, Entry] = {
         "unit": "1",
         "axis": True,
     },
+    "grid": choice(
+        METHOD,
+        "cells of one size (uniform); or of a column on a radius or line some that follow its front, so that 48 give"
+        " what 800 do for fronts and deposits, but nothing of the wave, which is missing then (fitted); auto takes"
+        " fitted with quantities: grains, where the scene has such a grid",
+        "uniform",
+        names.GRIDS,
+    ),
     "dtype": choice(METHOD, "floating-point type of the state", "float64", ["float64", "float32"]),
     "cfl": number(
         METHOD,

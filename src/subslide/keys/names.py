@@ -27,11 +27,17 @@ AS_PRINTED = {"none": LEAN, "friction": GENERAL, "upwinding": GENERAL}
 BOUNDARIES = {"open": LEAN, "wall": LEAN, "periodic": LEAN, "paper": LEAN}
 """Edges of the box."""
 
+GRIDS = {"uniform": LEAN, "fitted": LEAN, "auto": LEAN}
+"""Grids along a radius or line."""
+
 LEAVING = ("open", "paper")
 """Edges that let waves and grains out."""
 
 KNOWN_AS = {"boundary": {"open": "sea"}}
 """Words that ids have for values which once meant something else, by key: the zero gradient is `paper` now."""
+
+LATER = {"grid": "uniform"}
+"""Keys that were not there from the start, by the value that all runs had until then: ids leave it out."""
 
 MODELS = {"one-layer": LEAN, "radial": LEAN, "line": LEAN, "quarter": LEAN, "plane": LEAN}
 """Geometries that are solved, the cheapest first."""

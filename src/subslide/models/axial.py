@@ -82,7 +82,8 @@ class Axial(Model):
         """Put a state on a grid into new arrays."""
         real = type(self.settings.r)
         padded = len(grid.centres) + 2 * GHOSTS
-        self.grid, self.x = grid, grid.centres
+        self.grid = grid
+        self._x = grid.centres
         self.cells = allocate(Cells, (padded,), real)
         for variable, values in zip(self.variables, state, strict=True):
             getattr(self.cells, variable)[GHOSTS:-GHOSTS] = values
@@ -130,6 +131,11 @@ class Axial(Model):
         place = beside + place - 2 if side else beside - place
         inside = place if first <= place <= last else 0
         return {OPEN: inside, PAPER: last if side else first}.get(self.walls[side], 0)
+
+    @property
+    def x(self) -> np.ndarray:
+        """Centres (n) of the cells over R."""
+        return self._x
 
     def make_room(self, now: float) -> None:
         """Give the sea as many still cells more at each open end, or make that an end like the paper's.

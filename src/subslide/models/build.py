@@ -9,11 +9,13 @@ from subslide.kernels import boundary, friction, hyperbolicity, printed, viscosi
 from subslide.kernels.arrays import GeneralSettings, Settings
 from subslide.keys import names
 from subslide.models.axial import Axial
+from subslide.models.fitted import Fitted, mesh_of
 from subslide.models.grid import make_grid
 from subslide.models.limits import LARGEST_BOX
 from subslide.models.model import Model
 from subslide.models.plane import Plane
 from subslide.points import Point
+from subslide.scenes import Grid
 from subslide.study import choice
 
 
@@ -78,8 +80,10 @@ def build(point: Point, box: int, dry_depth: float) -> Model:
     Returns
     -------
     Model
-        An `Axial` or a `Plane`.
+        An `Axial`, a `Fitted` or a `Plane`.
     """
+    if choice.is_fitted(point):
+        return build_fitted(point, dry_depth)
     real = np.dtype(point.dtype).type
     model, geometry, *_ = choice.of(point)
     dx = point.scaled_dx
@@ -108,3 +112,19 @@ def build(point: Point, box: int, dry_depth: float) -> Model:
     first = boundary.WALL if grid.geometry == "quarter" else end
     plane = (h1, u1, v1, h2, u2, v2)
     return Plane(model, settings, plane, grid, walls=(first, end, first, end), level=surface, watched=watched)
+
+
+def build_fitted(point: Point, dry_depth: float) -> Fitted:
+    """Return the model of a column on a fitted grid in its initial state; the parameters are those of `build`."""
+    real = np.dtype(point.dtype).type
+    model, geometry, *_ = choice.of(point)
+    mesh, motion, fan = mesh_of(point, geometry == "radius")
+    smallest = float(np.diff(motion.edges).min())
+    state = scenes.load(point.scene).initial(Grid(geometry, smallest, motion.edges), point)
+    alone = model == "one-layer"
+    level = real(point.scaled_level)
+    h1, h2 = scenes.level_off(state.h2.astype(real), level)
+    still = np.zeros_like(h2)
+    settings = settings_of(point, 1 if alone else 2, smallest, dry_depth)
+    line = (still if alone else h1, still, h2, still)
+    return Fitted(model, settings, line, mesh, motion, fan, level=real(1) if alone else level)

@@ -1,8 +1,11 @@
 """The fitted grid of a column: fine where its side falls apart, and as wide as that has spread.
 
-Cells are of one size in the fan between the first wave into the column and the last grains, whose way a dam break with
-friction sets (Mangeney 2000), and grow as a power of their number to the axis and into the water. Every edge is a
-number times each end of the fan, and another: known before the run, whatever it does.
+Cells are of one size in the fan, which reaches from the first wave into the column to where a dam break with friction
+goes (see `kernels.motion.ends`), and grow from there as a power of their number, to the axis and into the water. Every
+edge is a number times each end of the fan, and one more: known before the run, whatever it does.
+
+The numbers were chosen on columns drawn at random (a_H 0.5 to 10, a_2 0.3 to 1.5, r to 0.8, delta 20 to 40); answers
+depend little on any of them (docs/design/measured.md).
 """
 
 import math
@@ -10,52 +13,113 @@ import math
 import numpy as np
 
 from subslide.kernels.arrays import Fan
-from subslide.points import PAPER_BOX, Point
+from subslide.kernels.motion import ends
+from subslide.points import Point
 
-SLACK = 0.01
-SHARE = 0.7
-POWER = 3.0
-PARTS = (8, 24, 16)
+PARTS = (10, 21, 17)
+"""Of 48 cells: those behind the fan, in it and beyond it."""
+
+START = .42
+"""Width of the part of the fan that is in the column at the start, over the number of cells: 0.006 with 48."""
+
+FRONT = 1.5
+"""Speed of the right end of the fan at the start, over that of waves into the column: the 1 % front has 1.7."""
+
+SHARE = 0.65
+"""Way of the right end over that of the last grains of a dam break; the 1 % front of a deposit is at 0.76 of it."""
+
+POWER = 4.0
+"""By which cells grow outside the fan."""
+
 FAR = 8.0
+"""Least radius at which the water ends, at a wall: what comes back from it hardly moves grains."""
+
 BEYOND = 1.3
-MIX=1.0
-FRONT=1.4
-LEFT = lambda wave, point: wave
+"""Mean size of the cells beyond the fan, over that of those in it, at least."""
 
 
 def parts(cells: int) -> tuple[int, int, int]:
-    """Return the cells behind the fan, in it and beyond it."""
+    """Return how many of so many cells are behind the fan, in it and beyond it; the column's side is an edge."""
     whole = sum(PARTS)
     left = max(2, round(cells * PARTS[0] / whole))
-    fan = max(4, round(cells * PARTS[1] / whole))
+    fan = max(3, 3 * round(cells * PARTS[1] / whole / 3))
     return left, fan, cells - left - fan
 
 
-def numbers(point: Point, end: float) -> tuple[float, ...]:
-    """Return the numbers of `kernels.motion.ends`: of a run to the scaled time `end`."""
+def fan_of(point: Point) -> Fan:
+    """Return how the ends of a point's fan move, scaled; without friction its right end never stops.
+
+    A dam break of grains with the gravity g (1-r) sends its last grains to 2 c t - (1-r) m t^2 / 2, c^2 = 1-r, where
+    nothing slows them down but the least friction.
+    """
     left, fan, _ = parts(point.cells)
+    slack = START / point.cells
     wave = math.sqrt(1 - point.r)
-    brake = (1 - point.r) * point.friction_number
     front = FRONT * wave
-    slowed = front**2 / (4 * SHARE * wave**2) * brake
-    braked = front / slowed if brake else math.inf
+    brake = (1 - point.r) * point.least_friction * FRONT**2 / (4 * SHARE)
+    braked = front / brake if brake else math.inf
     evenly = left / (left + fan)
-    t = min(braked, end)
-    right = 1 + 2 * SLACK + t * (front - 0.5 * slowed * t)
-    fall = LEFT(wave, point)
-    stop = max(braked, (1 - SLACK - evenly * right) / fall)
-    return Fan(SLACK, fall, front, slowed, 1.0, evenly, braked, stop)
+    farthest = 1 + 2 * slack + 0.5 * front * braked
+    stop = max(braked, (1 - slack - evenly * farthest) / wave)
+    return Fan(slack, wave, front, brake, evenly, braked, stop)
 
 
-def coefficients(cells: int, far: float) -> tuple[np.ndarray, ...]:
-    """Return of each edge what stands alone, and what the left and the right end of the fan are taken times."""
+def coefficients(cells: int, far: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return what the place of each edge is made of: base + near left + ahead right, by the ends of the fan.
+
+    Parameters
+    ----------
+    cells
+        Number of cells.
+    far
+        End of the grid over R.
+
+    Returns
+    -------
+    tuple of ndarray
+        base, near and ahead, each (cells + 1).
+    """
     left, fan, right = parts(cells)
-    behind = np.arange(left, 0, -1.0)
+    behind, beyond = np.arange(left, 0, -1.0), np.arange(1, right + 1.0)
     within = np.arange(fan + 1) / fan
-    beyond = np.arange(1, right + 1.0)
-    share = [(behind / left) ** POWER, (beyond / right) ** POWER]
-    more = [(behind - left * share[0]) / fan, (beyond - right * share[1]) / fan]
-    base = np.concatenate([0 * behind, 0 * within, far * share[1]])
-    near = np.concatenate([1 - share[0] + more[0], 1 - within, -more[1]])
-    ahead = np.concatenate([-more[0], within, 1 - share[1] + more[1]])
+    share_left, share_right = (behind / left) ** POWER, (beyond / right) ** POWER
+    more_left, more_right = (behind - left * share_left) / fan, (beyond - right * share_right) / fan
+    base = np.concatenate([0 * behind, 0 * within, far * share_right])
+    near = np.concatenate([1 - share_left + more_left, 1 - within, -more_right])
+    ahead = np.concatenate([-more_left, within, 1 - share_right + more_right])
     return base, near, ahead
+
+
+def far_end(point: Point, fan: Fan) -> float:
+    """Return where the grid of a point ends, over R: so far that cells beyond the fan never shrink below those in it.
+
+    Parameters
+    ----------
+    point
+        The run.
+    fan
+        Its fan.
+    """
+    left, within, right = parts(point.cells)
+    _, farthest = ends(fan, point.latest_end / point.time_scale)
+    return max(FAR, farthest * (1 + BEYOND * right / (left + within)))
+
+
+def first_edges(point: Point, fan: Fan, coefficients: tuple[np.ndarray, np.ndarray, np.ndarray]) -> np.ndarray:
+    """Return the edges (cells + 1) over R at the start, the column's side at 1 to the bit.
+
+    Parameters
+    ----------
+    point
+        The run.
+    fan
+        Its fan.
+    coefficients
+        What its edges are made of.
+    """
+    base, near, ahead = coefficients
+    left, right = ends(fan, 0.0)
+    edges = base + near * left + ahead * right
+    behind, within, _ = parts(point.cells)
+    edges[behind + within // 3] = 1.0
+    return edges

@@ -17,7 +17,7 @@ LOST_GRAINS = 1e-3
 """Fraction of the grains that may leave the box, thinner than the front, before the run counts as `left_domain`."""
 
 
-def first_suspect(cells: Cells, names: Iterable[str]) -> str:
+def first_suspect(cells: Cells, names: Iterable[str], x: np.ndarray | None) -> str:
     """Return the first cell that is not finite or has a negative depth, else the fastest, with its scaled state.
 
     Parameters
@@ -26,6 +26,8 @@ def first_suspect(cells: Cells, names: Iterable[str]) -> str:
         State, padded.
     names
         Fields that make the state, in the order in which it is told.
+    x
+        Places of the cells over R where they move, else None.
 
     Returns
     -------
@@ -39,10 +41,10 @@ def first_suspect(cells: Cells, names: Iterable[str]) -> str:
     if not bad.any():
         pace = inner(cells, ("pace",))["pace"]
         bad = pace == pace.max()
-    return described(bad, values)
+    return described(bad, values, x)
 
 
-def first_sheared(cells: Cells, names: Iterable[str], settings: Settings) -> str:
+def first_sheared(cells: Cells, names: Iterable[str], settings: Settings, x: np.ndarray | None) -> str:
     """Return the first cell whose wave speeds are complex along its shear, with its scaled state.
 
     Parameters
@@ -53,6 +55,8 @@ def first_sheared(cells: Cells, names: Iterable[str], settings: Settings) -> str
         Fields that make the state, in the order in which it is told.
     settings
         Scaled numbers of the run.
+    x
+        Places of the cells over R where they move, else None.
 
     Returns
     -------
@@ -70,7 +74,7 @@ def first_sheared(cells: Cells, names: Iterable[str], settings: Settings) -> str
         lost[place] = is_complex(real(h1[place]), real(h2[place]), real(square[place]), settings.r)
         if lost[place]:
             break
-    return described(lost, values)
+    return described(lost, values, x)
 
 
 def inner(cells: Cells, names: Iterable[str]) -> dict[str, np.ndarray]:
@@ -92,7 +96,7 @@ def inner(cells: Cells, names: Iterable[str]) -> dict[str, np.ndarray]:
     return {name: getattr(cells, name)[inside] for name in names}
 
 
-def described(bad: np.ndarray, values: dict[str, np.ndarray]) -> str:
+def described(bad: np.ndarray, values: dict[str, np.ndarray], x: np.ndarray | None) -> str:
     """Return the first cell where something is wrong, with its scaled state, in words.
 
     Parameters
@@ -101,6 +105,8 @@ def described(bad: np.ndarray, values: dict[str, np.ndarray]) -> str:
         Whether it is, by cell.
     values
         State by name, each of the shape of `bad`.
+    x
+        Places of the cells over R where they move, else None.
 
     Returns
     -------
@@ -111,4 +117,7 @@ def described(bad: np.ndarray, values: dict[str, np.ndarray]) -> str:
         return ""
     where = tuple(int(index) for index in np.argwhere(bad)[0])
     state = ", ".join(f"{name} = {array[where]:.6g}" for name, array in values.items())
-    return f"cell {where[0] if len(where) == 1 else where}, scaled {state}"
+    cell = f"cell {where[0] if len(where) == 1 else where}"
+    if x is not None:
+        cell += f" at {x[where]:.6g} R"
+    return f"{cell}, scaled {state}"

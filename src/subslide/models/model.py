@@ -24,8 +24,8 @@ class Model(ABC):
         State of the padded grid.
     level
         The undisturbed surface over H2, in the working precision.
-    x, half_width
-        Centres (nx) of the cells along x, and the end of the box, over R.
+    half_width
+        The end of the box over R.
     dimensions
         2 in the plane and on a radius, 1 on a line.
     copies
@@ -39,11 +39,20 @@ class Model(ABC):
     variables: tuple[str, ...]
     cells: Cells
     level: float
-    x: np.ndarray
     half_width: float
     dimensions: int
     copies: int
     free_until: float = math.inf
+
+    @property
+    @abstractmethod
+    def x(self) -> np.ndarray:
+        """Centres (nx) of the cells along x now, over R."""
+
+    @property
+    def width(self) -> np.ndarray | None:
+        """Widths (nx) of cells that move, now, over R; None where they do not."""
+        return None
 
     def make_room(self, now: float) -> None:  # noqa: B027
         """Give an open sea, which has come to the end of its arrays at the scaled time `now`, longer ones."""
@@ -70,8 +79,13 @@ class Model(ABC):
 
     def suspect(self) -> str:
         """Return where the state is first not finite or negative, and what stands there, in words."""
-        return first_suspect(self.cells, self.variables)
+        return first_suspect(self.cells, self.variables, self._moving)
 
     def sheared(self) -> str:
         """Return where wave speeds are first complex, and the state there, in words; '' if nowhere."""
-        return first_sheared(self.cells, self.variables, self.settings)
+        return first_sheared(self.cells, self.variables, self.settings, self._moving)
+
+    @property
+    def _moving(self) -> np.ndarray | None:
+        """Centres of cells whose number alone does not say where they are; None where it does."""
+        return None if self.width is None else self.x

@@ -68,7 +68,7 @@ class Plane(Model):
         self.name = name
         self.settings = settings
         self.level = real(level)
-        self.x = grid.centres
+        self._x = grid.centres
         self.half_width = grid.edges[-1]
         self.copies = 4 if name == "quarter" else 1
         first = int(np.searchsorted(self.x, 0.0))
@@ -119,6 +119,11 @@ class Plane(Model):
             below_axis=axis if self.copies == 4 else axis - 1,
             above_axis=axis,
         )
+
+    @property
+    def x(self) -> np.ndarray:
+        """Centres (nx) of the cells along x over R."""
+        return self._x
 
     def advance(self, thresholds: tuple[float, ...], track: Track) -> None:
         """Run the time loop; see `advance_planar`."""

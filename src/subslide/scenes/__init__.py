@@ -18,6 +18,9 @@ check(point) -> None
 front(point) -> float or None
     Return where the grains end at the start on the positive x axis, over R, if there is an upright side; else None.
     Without it the front is read off the grid, which smears such a side over two cells.
+is_column(point) -> bool
+    Return whether the grains are one column of radius, or half-width, 1 about the axis, at rest under still water: such
+    as have a fitted grid.
 complete(chosen) -> dict
     Return the options ``chosen``, by name and checked each for itself, with what follows from them filled in; raise a
     ConfigError where that cannot be.
@@ -132,6 +135,12 @@ def front(point: Point) -> float | None:
     """
     place = getattr(load(point.scene), "front", None)
     return place(point) if place else None
+
+
+def is_column(point: Point) -> bool:
+    """Return whether a point's grains are one column about the axis, which a fitted grid can be made for."""
+    judge = getattr(load(point.scene), "is_column", None)
+    return bool(judge and judge(point))
 
 
 def check_walls(point: Point) -> None:

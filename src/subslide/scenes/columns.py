@@ -69,6 +69,11 @@ def front(point: Point) -> float | None:
     return reach if reach > 0 else None
 
 
+def is_column(point: Point) -> bool:
+    """Return whether there is one column, about the axis."""
+    return symmetry(point) == "round"
+
+
 def initial(grid: Grid, point: Point) -> State:
     """Return the columns at rest under still water."""
     chosen = options(point)

@@ -20,6 +20,11 @@ def front(point: Point) -> float:
     return 1.0
 
 
+def is_column(point: Point) -> bool:
+    """Return that there is one column about the axis."""
+    return True
+
+
 def initial(grid: Grid, point: Point) -> State:
     """Return the column at rest under still water (alone for `one-layer`)."""
     lone = grid.geometry == "radius"

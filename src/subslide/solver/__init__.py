@@ -10,7 +10,7 @@ from subslide.models.build import build
 from subslide.models.limits import LARGEST_BOX
 from subslide.naming import STATUSES
 from subslide.points import Point
-from subslide.solver.answer import Snapshot, describe, make_run, room_for_waves
+from subslide.solver.answer import Snapshot, describe, make_run, room_for_waves, taken
 from subslide.solver.loop import advance_to, start_threads, warm_up
 from subslide.solver.run import Run
 from subslide.study import choice
@@ -18,9 +18,6 @@ from subslide.study.checking import check_point
 
 DRY_DEPTH = 1e-6
 """Over H2: below it a layer counts as dry (HLL instead of IFCP) and velocities are cut off smoothly."""
-
-REST_CAP = 60.0
-"""Cap on runs to rest, in R / sqrt(g H2 (1-r)): the paper's slowest column rests at 5, a_2 = 1.5, delta = 20 at 9."""
 
 GROWTH = 1.5
 """A box whose edge the front reaches grows by GROWTH, up to LARGEST_BOX times the paper's; the sea has no such edge."""
@@ -103,8 +100,7 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
         Its answer; `left_domain` if the front reached the end of the box.
     """
     time_scale = point.time_scale
-    cap = REST_CAP / math.sqrt(1.0 - point.r) * time_scale
-    end = cap if point.t_end is None else point.t_end
+    end = point.latest_end
     times = [t for t in point.profile_times if t <= end]
     model = build(point, box, DRY_DEPTH)
     room = room_for_waves(point, model)
@@ -123,14 +119,12 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
         wall += seconds
         reached = clock[k.NOW] >= clock[k.STOP]
         if reached and stop in times:
-            snapshots.append(
-                Snapshot(stop, model.x, model.profile(), model.fields() if point.fields else None)
-            )
+            snapshots.append(taken(stop, model, point.fields))
         if outcome != k.REACHED:
             break
     if not (reached and stop in times):  # else the end has its snapshot
         last = float(clock[k.NOW] * time_scale)
-        snapshots.append(Snapshot(last, model.x, model.profile(), model.fields() if point.fields else None))
+        snapshots.append(taken(last, model, point.fields))
     sampled = np.concatenate(chunks)
     status = ENDED.get(outcome, "ok" if point.t_end is not None else "not_at_rest")
     detail = "" if status == "ok" else describe(status, model, sampled, time_scale)

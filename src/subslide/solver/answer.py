@@ -24,12 +24,21 @@ differed by 0.3 % at most before `wave_free_until`, from 100 cells on and a_H 0.
 
 
 class Snapshot(NamedTuple):
-    """Time (s) of a snapshot, and scaled centres along x, profiles there and, where they are kept, fields, by name."""
+    """Time (s) of a snapshot, and scaled centres along x, profiles there and, where they are kept, fields, by name.
+
+    Where cells move, their widths too, else None.
+    """
 
     time: float
     x: np.ndarray
+    width: np.ndarray | None
     profile: dict[str, np.ndarray]
     fields: dict[str, np.ndarray] | None
+
+
+def taken(time: float, model: Model, fields: bool) -> Snapshot:
+    """Return the snapshot of a model at a time (s), with fields if they are kept."""
+    return Snapshot(time, model.x, model.width, model.profile(), model.fields() if fields else None)
 
 
 def describe(status: str, model: Model, sampled: np.ndarray, time_scale: float) -> str:
@@ -89,10 +98,10 @@ def series_in_si(model: Model, point: Point, sampled: np.ndarray, stood: bool) -
     side = scenes.front(point)
     if side is not None:
         series["x_front"][:, : None if stood else 1] = side * si.length
-    alone = model.settings.layers == 1
-    series["eta_gauge"] = column[samples.GAUGE] * (math.nan if alone else si.height)
+    alone, fitted = model.settings.layers == 1, choice.is_fitted(point)
+    series["eta_gauge"] = column[samples.GAUGE] * (math.nan if alone or fitted else si.height)
     for name, measured in measures.SERIES.items():
-        known = model.settings.layers >= measured.layers
+        known = model.settings.layers >= measured.layers and not (fitted and measured.wave)
         values = column[samples.COLUMN[name]]
         series[name] = measured.si(values, si) if known else np.full(len(sampled), np.nan)
     return series
@@ -111,9 +120,10 @@ def room_for_waves(point: Point, model: Model) -> float:
     Returns
     -------
     float
-        Distance (m) along an axis; infinite on a sea without end, NaN without an open edge or without water.
+        Distance (m) along an axis; infinite on a sea without end, NaN without an open edge, or where nothing is known of
+        waves.
     """
-    if point.boundary not in names.LEAVING or model.settings.layers == 1:
+    if point.boundary not in names.LEAVING or model.settings.layers == 1 or choice.is_fitted(point):
         return math.nan
     if choice.at_sea(point):
         return math.inf
@@ -166,8 +176,11 @@ def shared(model: Model, snapshots: list[Snapshot]) -> tuple[np.ndarray, list[di
     Returns
     -------
     tuple of ndarray and list
-        Scaled centres (nx), and the profiles by name, each (nx), of each snapshot.
+        Scaled centres (nx), or of each snapshot (snapshots, nx) where cells move, and the profiles by name, each (nx),
+        of each snapshot.
     """
+    if model.width is not None:
+        return np.stack([snapshot.x for snapshot in snapshots]), [one.profile for one in snapshots]
     x = model.x
     kept = np.abs(x) < model.half_width
     profiles = []
@@ -243,6 +256,7 @@ def make_run(
     height, time_scale = point.column_height, point.time_scale
     x, profiles = shared(model, snapshots)
     whole = [snapshot.fields for snapshot in snapshots if snapshot.fields]
+    widths = [snapshot.width for snapshot in snapshots if snapshot.width is not None]
     time = sampled[:, samples.TIME] * time_scale
     series = series_in_si(model, point, sampled, stood=clock[k.REST_SINCE] == 0)
     front = series["x_front"]
@@ -255,13 +269,13 @@ def make_run(
         point=point,
         model=model.name,
         model_reason=choice.of(point).reason,
-        dx=point.dx,
+        dx=math.nan if choice.is_fitted(point) else point.dx,
         x=x * point.radius,
         time=time,
         series=series,
         snapshot_time=np.array([snapshot.time for snapshot in snapshots]),
         h2=in_metres(profiles, "h2", height),
-        eta=np.full((len(profiles), len(x)), np.nan) if alone else in_metres(profiles, "eta", height),
+        eta=np.full((len(profiles), x.shape[-1]), np.nan) if alone else in_metres(profiles, "eta", height),
         h2_diagonal=in_metres(profiles, "h2_diagonal", height) if "h2_diagonal" in profiles[0] else None,
         h2_field=in_metres(whole, "h2", height).astype(np.float32) if whole else None,
         eta_field=in_metres(whole, "eta", height).astype(np.float32) if whole else None,
@@ -274,4 +288,7 @@ def make_run(
         time_of_arrest=np.array([time_of_arrest(time, one) if rested else np.nan for one in front]),
         time_at_rest=float(clock[k.REST_SINCE] * time_scale if rested else np.nan),
         box_half_width=model.half_width * point.radius,
+        width=np.stack(widths) * point.radius if widths else None,
+        grid=choice.of(point).grid,
+        grid_reason=choice.of(point).grid_reason,
     )

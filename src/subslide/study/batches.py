@@ -81,7 +81,8 @@ def split(points: list[Point]) -> list[list[Point]]:
     """
     groups: dict[tuple, list[Point]] = {}
     for point in points:
-        groups.setdefault((choice.kernels(point), point.dx, point.fields), []).append(point)
+        size = 0.0 if choice.is_fitted(point) else point.dx
+        groups.setdefault((choice.kernels(point), size, point.fields), []).append(point)
     total = sum(cost.seconds(point) for point in points)
     target = min(max(total / PARTS, SECONDS[0]), SECONDS[1])
     return [batch for group in groups.values() for batch in _balanced(group, target)]

@@ -42,6 +42,10 @@ class Choice(NamedTuple):
         Geometry of its grid: ``radius``, ``line``, ``quarter`` or ``plane``.
     reason
         Why it has that model, in words.
+    grid
+        Grid that is solved on: ``uniform`` or ``fitted``.
+    grid_reason
+        Why it has that grid, in words.
     general
         Whether it needs the general kernels: whatever the lean ones leave out for speed.
     """
@@ -49,6 +53,8 @@ class Choice(NamedTuple):
     model: str
     geometry: str
     reason: str
+    grid: str
+    grid_reason: str
     general: bool
 
 
@@ -65,7 +71,19 @@ def of(point: Point) -> Choice:
         if model == "one-layer":
             reason += ", r = 0 and grains alone asked for"
     general = any(getattr(point, key) not in known for key, known in LEAN.items())
-    return Choice(model, _geometry(model, symmetry), reason, general)
+    geometry = _geometry(model, symmetry)
+    return Choice(model, geometry, reason, *_grid(point, geometry), general)
+
+
+def unfit(point: Point, geometry: str) -> str:
+    """Return why a point, solved in a geometry, can have no fitted grid, in words; '' if it can."""
+    if not scenes.is_column(point):
+        return "the scene is not one column about the axis"
+    if geometry not in ("radius", "line"):
+        return "the model is of the plane"
+    if point.boundary != "open":
+        return f"the boundary is {point.boundary}, not open"
+    return ""
 
 
 def exact_models(point: Point) -> tuple[str, ...]:
@@ -75,22 +93,38 @@ def exact_models(point: Point) -> tuple[str, ...]:
     return alone + EXACT[symmetry]
 
 
+def is_fitted(point: Point) -> bool:
+    """Return whether a point is solved on a grid that is fitted to its grains."""
+    return of(point).grid == "fitted"
+
+
 def at_sea(point: Point) -> bool:
     """Return whether a point is solved on an open sea that is lengthened as need be, so that it has no box."""
     return point.boundary == "open" and of(point).geometry in ("radius", "line")
 
 
 def kernels(point: Point) -> str:
-    """Return the name of the compiled code that a point needs: ``model:dtype``, or ``model:dtype:general``."""
+    """Return the name of the compiled code that a point needs: ``model:dtype``, then ``:fitted``, then ``:general``."""
     choice = of(point)
-    return f"{choice.model}:{point.dtype}" + (":general" if choice.general else "")
+    fitted = ":fitted" if choice.grid == "fitted" else ""
+    return f"{choice.model}:{point.dtype}{fitted}" + (":general" if choice.general else "")
 
 
 @functools.cache
 def all_kernels() -> tuple[str, ...]:
     """Return the names of all compiled code that a point may need, see `kernels`."""
-    kinds = itertools.product(names.MODELS, ENTRIES["dtype"]["enum"], ("", ":general"))
-    return tuple(f"{model}:{dtype}{general}" for model, dtype, general in kinds)
+    kinds = itertools.product(names.MODELS, ENTRIES["dtype"]["enum"], ("", ":fitted"), ("", ":general"))
+    return tuple(f"{model}:{dtype}{fitted}{general}" for model, dtype, fitted, general in kinds)
+
+
+def _grid(point: Point, geometry: str) -> tuple[str, str]:
+    """Return the grid of a point that is solved in a geometry, and why it has that, in words."""
+    if point.grid != "auto":
+        return point.grid, "asked for"
+    if point.quantities != "grains":
+        return "uniform", "auto: more than grains asked for"
+    why = unfit(point, geometry)
+    return ("uniform", f"auto: {why}") if why else ("fitted", "auto: a column, and grains alone asked for")
 
 
 def _geometry(model: str, symmetry: str) -> str:

@@ -28,8 +28,8 @@ SECONDS_PER_CELL = {
 GENERAL = 2.3
 """Times as many with the general ones."""
 
-REST, REST_CAP = 1.8, 60.0
-"""Time to rest over 1/m, and the solver's cap on it, both in R / sqrt(g H2 (1-r))."""
+REST = 1.8
+"""Time to rest over 1/m in R / sqrt(g H2 (1-r))."""
 FAR = 1.25
 """Way of the front over R/m, beyond the radius of its column; none was seen to go further."""
 FASTEST = 2.0
@@ -193,9 +193,9 @@ def _size(point: Point) -> _Size:
 
 def _end(point: Point) -> float:
     """Return the scaled time at which a run is taken to end."""
+    cap = point.latest_end / point.time_scale
     if point.t_end is not None:
-        return point.t_end / point.time_scale
-    cap = REST_CAP / math.sqrt(1 - point.r)
+        return cap
     last = (
         max((t for t in point.profile_times if t <= cap * point.time_scale), default=0.0) / point.time_scale
     )
@@ -207,8 +207,7 @@ def _brake(point: Point) -> float:
     """Return the least scaled deceleration by friction of grains that move; 0 if they may move for ever."""
     if point.as_printed == "friction" or not point.friction_in_viscosity:
         return 0.0
-    angle = min(point.delta, point.delta_2) if point.friction == "pouliquen" else point.delta
-    return math.tan(math.radians(angle)) / point.a_2
+    return point.least_friction
 
 
 def _reach(point: Point, end: float) -> float:

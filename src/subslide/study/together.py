@@ -38,13 +38,16 @@ def check(point: Point) -> None:
             f"model: {point.model} is not allowed with scene: {point.scene}, a"
             f" {choice.WORDS[scenes.symmetry(point)]}; allowed: auto, {', '.join(models)}"
         )
-    model, geometry, reason, _ = choice.of(point)
+    model, geometry, reason, *_ = choice.of(point)
     for (key, value), geometries in GEOMETRIES.items():
         if getattr(point, key) == value and geometry not in geometries:
             raise ConfigError(
                 f"{key}: {words.show(value)} is not allowed with model: {model} ({reason});"
                 f" allowed: {', '.join(geometries)}"
             )
+    unfit = choice.unfit(point, geometry)
+    if point.grid == "fitted" and unfit:
+        raise ConfigError(f"grid: fitted is not allowed where {unfit}; allowed: uniform, or auto")
     if geometry in PLANE and point.cells > MOST_PLANE_CELLS:
         raise ConfigError(
             f"cells: {point.cells} is not allowed in the plane; allowed: at most {MOST_PLANE_CELLS}"

@@ -23,9 +23,13 @@ class Scales(NamedTuple):
 
 
 class Series(NamedTuple):
-    """A series: how rows join, from which value on; its SI values from scaled ones; and the layers that it takes."""
+    """A series: how rows join, from which value on; its SI values from scaled ones; and the layers that it takes.
+
+    Waves are unknown on grids that do not resolve them.
+    """
 
     join: int
     si: Callable[[np.ndarray, Scales], np.ndarray]
     start: float = 0.0
     layers: int = 1
+    wave: bool = False

@@ -4,8 +4,8 @@ from subslide.kernels.jit import inlined, maximum, part
 from subslide.kernels.measures._series import LARGEST, Series
 
 SERIES = {
-    "max_abs_eta": Series(LARGEST, lambda column, si: column * si.height, layers=2),
-    "max_abs_eta_outside": Series(LARGEST, lambda column, si: column * si.height, layers=2),
+    "max_abs_eta": Series(LARGEST, lambda column, si: column * si.height, layers=2, wave=True),
+    "max_abs_eta_outside": Series(LARGEST, lambda column, si: column * si.height, layers=2, wave=True),
 }
 
 
