@@ -142,7 +142,8 @@ class CellTerms(NamedTuple):
 class Fan(NamedTuple):
     """Numbers of `motion.ends`, scaled: how the ends of the fan of a column that falls apart move."""
 
-    slack: float  # how far the fan reaches into the column at the start, and half of how far beyond it
+    slack: float  # how far the fan reaches into the column at the start
+    lead: float  # and how far beyond it
     wave: float  # speed of its left end
     front: float  # speed of its right end at the start
     brake: float  # by which that end is slowed down

@@ -87,9 +87,9 @@ def ends(fan, time):
     The right end is slowed down evenly until it stands; the left one goes with the first wave into the column, until all
     cells up to the right end have one width.
     """
-    slack, wave, front, brake, evenly, braked, stop = fan
+    slack, lead, wave, front, brake, evenly, braked, stop = fan
     t = min(time, braked)
-    right = 1.0 + 2.0 * slack + t * (front - 0.5 * brake * t)
+    right = 1.0 + lead + t * (front - 0.5 * brake * t)
     falling = 1.0 - slack - wave * time
     return (max(falling, evenly * right) if time < stop else evenly * right), right
 
@@ -97,7 +97,7 @@ def ends(fan, time):
 @inlined
 def end_speeds(fan, time):
     """Return the velocities of both ends."""
-    slack, wave, front, brake, evenly, braked, stop = fan
+    slack, lead, wave, front, brake, evenly, braked, stop = fan
     _, right = ends(fan, time)
     fast = front - brake * time if time < braked else 0.0
     falls = 1.0 - slack - wave * time > evenly * right and time < stop

@@ -1,6 +1,6 @@
 """The fitted grid of a column: fine where its side falls apart, and as wide as that has spread.
 
-Cells are of one size in the fan, which reaches from the first wave into the column to where a dam break with friction
+Cells are of nearly one size in the fan, which reaches from the first wave into the column to where a dam break with friction
 goes (see `kernels.motion.ends`), and grow from there as a power of their number, to the axis and into the water. Every
 edge is a number times each end of the fan, and one more: known before the run, whatever it does.
 
@@ -19,7 +19,7 @@ from subslide.points import Point
 PARTS = (10, 21, 17)
 """Of 48 cells: those behind the fan, in it and beyond it."""
 
-START = .42
+START = 0.288
 """Width of the part of the fan that is in the column at the start, over the number of cells: 0.006 with 48."""
 
 FRONT = 1.5
@@ -28,6 +28,9 @@ FRONT = 1.5
 SHARE = 0.65
 """Way of the right end over that of the last grains of a dam break; the 1 % front of a deposit is at 0.76 of it."""
 
+GRADE, BOWL = 0.2, 0.15
+"""By how much cells of the fan grow to the right, and to both ends, which move: waves near edges there faster."""
+
 POWER = 4.0
 """By which cells grow outside the fan."""
 
@@ -35,7 +38,7 @@ FAR = 8.0
 """Least radius at which the water ends, at a wall: what comes back from it hardly moves grains."""
 
 BEYOND = 1.3
-"""Mean size of the cells beyond the fan, over that of those in it, at least."""
+"""Mean size of the cells beyond the fan, over that of its last one, at least."""
 
 
 def parts(cells: int) -> tuple[int, int, int]:
@@ -46,6 +49,16 @@ def parts(cells: int) -> tuple[int, int, int]:
     return left, fan, cells - left - fan
 
 
+def within(s: np.ndarray | float) -> np.ndarray | float:
+    """Return where the edges of the fan are, from 0 to 1, by their number over that of its cells."""
+    return s + GRADE / 2 * (s * s - s) + BOWL * (((2 * s - 1) ** 3 + 1) / 6 - s / 3)
+
+
+def sizes() -> tuple[float, float]:
+    """Return the sizes of the first and the last cell of the fan over their mean, by the slope of `within`."""
+    return 1 - GRADE / 2 + BOWL / 1.5, 1 + GRADE / 2 + BOWL / 1.5
+
+
 def fan_of(point: Point) -> Fan:
     """Return how the ends of a point's fan move, scaled; without friction its right end never stops.
 
@@ -54,14 +67,15 @@ def fan_of(point: Point) -> Fan:
     """
     left, fan, _ = parts(point.cells)
     slack = START / point.cells
+    lead = slack * (1 / within(1 / 3) - 1)
     wave = math.sqrt(1 - point.r)
     front = FRONT * wave
     brake = (1 - point.r) * point.least_friction * FRONT**2 / (4 * SHARE)
     braked = front / brake if brake else math.inf
     evenly = left / (left + fan)
-    farthest = 1 + 2 * slack + 0.5 * front * braked
+    farthest = 1 + lead + 0.5 * front * braked
     stop = max(braked, (1 - slack - evenly * farthest) / wave)
-    return Fan(slack, wave, front, brake, evenly, braked, stop)
+    return Fan(slack, lead, wave, front, brake, evenly, braked, stop)
 
 
 def coefficients(cells: int, far: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -81,12 +95,14 @@ def coefficients(cells: int, far: float) -> tuple[np.ndarray, np.ndarray, np.nda
     """
     left, fan, right = parts(cells)
     behind, beyond = np.arange(left, 0, -1.0), np.arange(1, right + 1.0)
-    within = np.arange(fan + 1) / fan
+    inner = within(np.arange(fan + 1) / fan)
     share_left, share_right = (behind / left) ** POWER, (beyond / right) ** POWER
-    more_left, more_right = (behind - left * share_left) / fan, (beyond - right * share_right) / fan
-    base = np.concatenate([0 * behind, 0 * within, far * share_right])
-    near = np.concatenate([1 - share_left + more_left, 1 - within, -more_right])
-    ahead = np.concatenate([-more_left, within, 1 - share_right + more_right])
+    first, last = sizes()
+    more_left = first * (behind - left * share_left) / fan
+    more_right = last * (beyond - right * share_right) / fan
+    base = np.concatenate([0 * behind, 0 * inner, far * share_right])
+    near = np.concatenate([1 - share_left + more_left, 1 - inner, -more_right])
+    ahead = np.concatenate([-more_left, inner, 1 - share_right + more_right])
     return base, near, ahead
 
 
@@ -100,9 +116,9 @@ def far_end(point: Point, fan: Fan) -> float:
     fan
         Its fan.
     """
-    left, within, right = parts(point.cells)
+    left, fan_cells, right = parts(point.cells)
     _, farthest = ends(fan, point.latest_end / point.time_scale)
-    return max(FAR, farthest * (1 + BEYOND * right / (left + within)))
+    return max(FAR, farthest * (1 + BEYOND * sizes()[1] * right / (left + fan_cells)))
 
 
 def first_edges(point: Point, fan: Fan, coefficients: tuple[np.ndarray, np.ndarray, np.ndarray]) -> np.ndarray:
@@ -120,6 +136,6 @@ def first_edges(point: Point, fan: Fan, coefficients: tuple[np.ndarray, np.ndarr
     base, near, ahead = coefficients
     left, right = ends(fan, 0.0)
     edges = base + near * left + ahead * right
-    behind, within, _ = parts(point.cells)
-    edges[behind + within // 3] = 1.0
+    behind, fan_cells, _ = parts(point.cells)
+    edges[behind + fan_cells // 3] = 1.0
     return edges
