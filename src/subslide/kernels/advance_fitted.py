@@ -1,7 +1,7 @@
 """The time loop on a fitted grid: a radius, or the right half of a line, whose cells go with the grains (see `motion`).
 
-Every cell is solved in every step, since waves cross so few of them at once. Loops run over the cells, or over the edges
-after them: whole vectors, if `cells` is.
+Every cell is solved in every step, since waves cross so few of them at once. Loops run over the cells, or over the
+edges after them: whole vectors, if `cells` is.
 """
 
 import numpy as np
@@ -23,7 +23,6 @@ from subslide.kernels.motion import arrive, relative_pace, sweep
 from subslide.kernels.reduce import extremes
 from subslide.kernels.row import edges, film_edges, grain_edges
 
-
 OFTEN = 8
 """Steps after which volumes, energy and hyperbolicity are measured; fronts are in each."""
 
@@ -34,9 +33,7 @@ def sample(s, c, mesh, motion, watch, thresholds, wet, now, row):
     row[:] = np.nan
     row[samples.TIME] = now
     for m in range(samples.FRONTS):
-        row[samples.FRONT + m] = front_position(
-            c.h2, c.h2, watch.beside, wet[1], thresholds[m], s.dx, motion
-        )
+        row[samples.FRONT + m] = front_position(c.h2, c.h2, watch.beside, wet[1], thresholds[m], s.dx, motion)
 
 
 @inlined
@@ -121,7 +118,9 @@ def advance(s, c, left, right, fx, terms, mesh, motion, fan, watch, thresholds, 
         least1, shallowest, square2, pace = extremes(c.h1, c.h2, c.square2, c.pace, GHOSTS, cells - GHOSTS)
         n += 1
         full = n == track.samples.shape[0]
-        code = k.outcome(clock, not due or samples.is_finite(row), min(least1, shallowest), square2, False, full)
+        code = k.outcome(
+            clock, not due or samples.is_finite(row), min(least1, shallowest), square2, False, full
+        )
         code = judged(s, code, row[samples.COMPLEX])
         if code == k.RUNNING:
             film = may_overtop(s, least1, motion.widest)

@@ -171,7 +171,9 @@ class Motion(NamedTuple):
     after: np.ndarray
     gap: np.ndarray  # between the centres beside each edge (n + 1)
     growth: np.ndarray  # of each cell (n): its volume before a step over that after it, less 1
-    lever: np.ndarray  # radius of each cell (n) in a step over its volume after it; on a line 1 over its width
+    lever: (
+        np.ndarray
+    )  # radius of each cell (n) in a step over its volume after it; on a line 1 over its width
     turn: float  # what a volume per radian is taken times: 2 pi, or 2 for both halves of a line
     widest: float  # the largest distance of two centres where grains may be, ever
     radial: float  # 1 in round scenes, 0 on a line

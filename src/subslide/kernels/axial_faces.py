@@ -10,8 +10,9 @@ from subslide.kernels.reconstruct import depth_slopes, grain_slopes, mc, rates
 def faces(s, c, left, right, terms, source, motion, start, stop, dt):
     """Fill the states at both faces of cells, half a step on, and the pressure products across them: second order.
 
-    `source` is `Mesh.source`. In cells that move the half step is seen by one who moves with their centres. Grains that friction can stop are not accelerated in the half step; moving ones feel no
-    friction in it (more accurate on coarse grids, measured).
+    `source` is `Mesh.source`. In cells that move the half step is seen by one who moves with their centres. Grains that
+    friction can stop are not accelerated in the half step; moving ones feel no friction in it (more accurate on coarse
+    grids, measured).
     """
     real = type(s.r)
     half = real(0.5)
@@ -39,9 +40,7 @@ def faces(s, c, left, right, terms, source, motion, start, stop, dt):
             mc(c.eta[i] - c.eta[i - 1], c.eta[i + 1] - c.eta[i], motion, i),
             s_h2,
         )
-        d_h1, d_u1, d_h2, d_u2 = rates(
-            s.r, h1, u1 - drift, h2, u2 - drift, s_eta, s_h1, s_h2, s_u1, s_u2
-        )
+        d_h1, d_u1, d_h2, d_u2 = rates(s.r, h1, u1 - drift, h2, u2 - drift, s_eta, s_h1, s_h2, s_u1, s_u2)
         change1 = max(-h1, ratio * d_h1 + dt * source[i] * h1 * u1)
         change2 = max(-h2, ratio * d_h2 + dt * source[i] * h2 * u2)
         still = holds(reach, width * static, c.square2[i], d_u2 * d_u2)

@@ -8,8 +8,8 @@ from subslide.kernels.jit import inlined
 def front_position(h, other, start, stop, threshold, dx, motion=None):
     """Return the farthest distance where the mean depth of two padded rows is `threshold`, between cell centres.
 
-    `start` is the padded index of the first cell beyond the axis, whose centre is at dx / 2 unless cells move; 0 where no cell reaches
-    the threshold. From `stop` on there are no grains.
+    `start` is the padded index of the first cell beyond the axis, whose centre is at dx / 2 unless cells move; 0 where
+    no cell reaches the threshold. From `stop` on there are no grains.
     """
     real = type(dx)
     half = real(0.5)

@@ -84,24 +84,22 @@ def over_width(motion, k, dt, dx):
 def ends(fan, time):
     """Return where the left and the right end of the fan are.
 
-    The right end is slowed down evenly until it stands; the left one goes with the first wave into the column, until all
-    cells up to the right end have one width.
+    The right end is slowed down evenly until it stands; the left one goes with the first wave into the column, until
+    all cells up to the right end have one mean width.
     """
-    slack, lead, wave, front, brake, evenly, braked, stop = fan
-    t = min(time, braked)
-    right = 1.0 + lead + t * (front - 0.5 * brake * t)
-    falling = 1.0 - slack - wave * time
-    return (max(falling, evenly * right) if time < stop else evenly * right), right
+    t = min(time, fan.braked)
+    right = 1.0 + fan.lead + t * (fan.front - 0.5 * fan.brake * t)
+    falling = 1.0 - fan.slack - fan.wave * time
+    return (max(falling, fan.evenly * right) if time < fan.stop else fan.evenly * right), right
 
 
 @inlined
 def end_speeds(fan, time):
     """Return the velocities of both ends."""
-    slack, lead, wave, front, brake, evenly, braked, stop = fan
     _, right = ends(fan, time)
-    fast = front - brake * time if time < braked else 0.0
-    falls = 1.0 - slack - wave * time > evenly * right and time < stop
-    return (-wave if falls else evenly * fast), fast
+    fast = fan.front - fan.brake * time if time < fan.braked else 0.0
+    falls = 1.0 - fan.slack - fan.wave * time > fan.evenly * right and time < fan.stop
+    return (-fan.wave if falls else fan.evenly * fast), fast
 
 
 @inlined
@@ -156,7 +154,9 @@ def sweep(mesh, motion, fan, now, dt):
         inverse = 1.0 / then
         mesh.inverse_volume[k] = inverse
         motion.growth[k] = (before - then) * inverse
-        motion.lever[k] = (flat + motion.radial * 0.25 * (ahead[k + 1] + ahead[k] + x[k + 1] + x[k])) * inverse
+        motion.lever[k] = (
+            flat + motion.radial * 0.25 * (ahead[k + 1] + ahead[k] + x[k + 1] + x[k])
+        ) * inverse
 
 
 @inlined

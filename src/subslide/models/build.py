@@ -115,7 +115,20 @@ def build(point: Point, box: int, dry_depth: float) -> Model:
 
 
 def build_fitted(point: Point, dry_depth: float) -> Fitted:
-    """Return the model of a column on a fitted grid in its initial state; the parameters are those of `build`."""
+    """Return the model of a column on a fitted grid in its initial state.
+
+    Parameters
+    ----------
+    point
+        The run.
+    dry_depth
+        Depth over H2 below which a layer counts as dry.
+
+    Returns
+    -------
+    Fitted
+        The column at rest.
+    """
     real = np.dtype(point.dtype).type
     model, geometry, *_ = choice.of(point)
     mesh, motion, fan = mesh_of(point, geometry == "radius")

@@ -1,8 +1,8 @@
 """The fitted grid of a column: fine where its side falls apart, and as wide as that has spread.
 
-Cells are of nearly one size in the fan, which reaches from the first wave into the column to where a dam break with friction
-goes (see `kernels.motion.ends`), and grow from there as a power of their number, to the axis and into the water. Every
-edge is a number times each end of the fan, and one more: known before the run, whatever it does.
+Cells are of nearly one size in the fan, which reaches from the first wave into the column to where a dam break with
+friction goes (see `kernels.motion.ends`), and grow from there as a power of their number, to the axis and into the
+water. Every edge is a number times each end of the fan, and one more: known before the run, whatever it does.
 
 The numbers were chosen on columns drawn at random (a_H 0.5 to 10, a_2 0.3 to 1.5, r to 0.8, delta 20 to 40); answers
 depend little on any of them (docs/design/measured.md).
@@ -19,8 +19,8 @@ from subslide.points import Point
 PARTS = (10, 21, 17)
 """Of 48 cells: those behind the fan, in it and beyond it."""
 
-START = 0.288
-"""Width of the part of the fan that is in the column at the start, over the number of cells: 0.006 with 48."""
+START = 2.0
+"""Width of the part of the fan that is in the column at the start, times the number of cells to 3/2: 0.006 with 48."""
 
 FRONT = 1.5
 """Speed of the right end of the fan at the start, over that of waves into the column: the 1 % front has 1.7."""
@@ -66,7 +66,7 @@ def fan_of(point: Point) -> Fan:
     nothing slows them down but the least friction.
     """
     left, fan, _ = parts(point.cells)
-    slack = START / point.cells
+    slack = START / point.cells**1.5
     lead = slack * (1 / within(1 / 3) - 1)
     wave = math.sqrt(1 - point.r)
     front = FRONT * wave
@@ -121,7 +121,9 @@ def far_end(point: Point, fan: Fan) -> float:
     return max(FAR, farthest * (1 + BEYOND * sizes()[1] * right / (left + fan_cells)))
 
 
-def first_edges(point: Point, fan: Fan, coefficients: tuple[np.ndarray, np.ndarray, np.ndarray]) -> np.ndarray:
+def first_edges(
+    point: Point, fan: Fan, coefficients: tuple[np.ndarray, np.ndarray, np.ndarray]
+) -> np.ndarray:
     """Return the edges (cells + 1) over R at the start, the column's side at 1 to the bit.
 
     Parameters

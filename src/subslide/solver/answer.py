@@ -120,8 +120,8 @@ def room_for_waves(point: Point, model: Model) -> float:
     Returns
     -------
     float
-        Distance (m) along an axis; infinite on a sea without end, NaN without an open edge, or where nothing is known of
-        waves.
+        Distance (m) along an axis; infinite on a sea without end, NaN without an open edge, or where nothing is known
+        of waves.
     """
     if point.boundary not in names.LEAVING or model.settings.layers == 1 or choice.is_fitted(point):
         return math.nan

@@ -17,6 +17,8 @@ VOUCHED = {"a_H": (0.5, 10), "a_2": (0.3, 1.5), "r": (0, 0.8), "delta": (20, 40)
 """Range of the columns, by key, for which README.md says what error to expect."""
 COARSEST = 0.2
 """Cell size over R of a column above which L_f errs by up to 16 to 29 % (below it by up to 13 %; 25 columns)."""
+FEWEST_FITTED = 24
+"""Cells of a fitted grid below which L_f errs by more than 1.5 % (316 columns: 24 cells 1.5 %, 16 cells 4.6 %)."""
 COLUMNS = ("cylinder", "ellipse", "columns")
 """Scenes of columns with upright sides."""
 
@@ -29,7 +31,7 @@ def _beyond(point: Point) -> bool:
 
 def _stands(point: Point) -> bool:
     """Return whether friction holds even the side of a column, which no grid makes steeper than 1 / dx."""
-    holds = point.friction_number * point.scaled_dx >= 1
+    holds = point.friction_number * point.scaled_dx >= 1 and not choice.is_fitted(point)
     return point.scene in COLUMNS and point.friction != "pouliquen" and holds
 
 
@@ -47,11 +49,29 @@ NOTES = (
     ),
     Region(
         "coarse grid",
-        lambda point: point.scene in COLUMNS and point.scaled_dx > COARSEST,
+        lambda point: point.scene in COLUMNS and not choice.is_fitted(point) and point.scaled_dx > COARSEST,
         f"with cells of more than {COARSEST:g} R the length of the deposit errs by up to a third",
         "cells: 100 or more",
         {"cells": 20, "a_2": 1.2},
         {"cells": 100},
+        "",
+    ),
+    Region(
+        "coarse fitted grid",
+        lambda point: choice.is_fitted(point) and point.cells < FEWEST_FITTED,
+        f"with fewer than {FEWEST_FITTED} cells the length of the deposit errs by up to several percent",
+        "cells: 48",
+        {"grid": "fitted", "cells": 12},
+        {"grid": "fitted", "cells": 48},
+        "",
+    ),
+    Region(
+        "no wave",
+        lambda point: choice.is_fitted(point) and point.quantities != "grains",
+        "a fitted grid does not resolve waves: max|eta|, the gauge and the surface are missing, not wrong",
+        "grid: uniform for waves, or quantities: grains",
+        {"grid": "fitted", "cells": 48},
+        {"grid": "uniform"},
         "",
     ),
     Region(
