@@ -59,5 +59,5 @@ def test_general_kernels_are_for_what_lean_ones_leave_out_alone():
 def test_a_choice_is_made_once():
     point = Point(r=0.123)
     assert choice.of(point) is choice.of(Point(r=0.123))
-    assert choice.of(point) == ("radial", "radius", "auto: round scene", False)
+    assert choice.of(point) == ("radial", "radius", "auto: round scene", "uniform", "asked for", False)
     assert choice.kernels(point.with_values(scheme="roe", dtype="float32")) == "radial:float32:general"

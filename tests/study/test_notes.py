@@ -26,9 +26,16 @@ def runout(point):
     return solve(point.with_values(cells=1600)).L_f[0]
 
 
+def fine(point):
+    """L_f on a uniform grid of 1,600 cells."""
+    return solve(point.with_values(grid="uniform", cells=1600)).L_f[0]
+
+
 HARM = {
     "range": lambda point: error(point) > 0.2 * (runout(point) / point.radius - 1),  # of the way run
     "coarse grid": lambda point: error(point) > 0.15 * runout(point) / point.radius,
+    "coarse fitted grid": lambda point: abs(solve(point).L_f[0] / fine(point) - 1) > 0.02,
+    "no wave": lambda point: np.isnan(solve(point).max_abs_eta).all(),
     "standing column": lambda point: solve(point).time_at_rest == 0,
 }
 

@@ -131,22 +131,10 @@ ENTRIES: dict[str, Entry] = {
         "role": PRESET,
         "description": "named set of model, scheme, order, cells, grid, front_flux, boundary and quantities; keys"
         " written out win over it",
-        "enum": ["default", "paper", "resolved", "fronts"],
+        "enum": list(names.NUMERICS),
         "default": "default",
         "axis": True,
-        "presets": {
-            "default": {},
-            "paper": {
-                "model": "quarter",
-                "scheme": "ifcph",
-                "front_flux": "hll",
-                "order": 1,
-                "cells": 200,
-                "boundary": "paper",
-            },
-            "resolved": {"model": "auto", "scheme": "ifcph", "order": 2, "cells": 3200},
-            "fronts": {"quantities": "grains", "grid": "fitted", "cells": 48},
-        },
+        "presets": names.NUMERICS,
     },
     "a_H": number(
         PHYSICS, "water depth above the column over the column's height, H1/H2", 1, minimum=0, maximum=1000

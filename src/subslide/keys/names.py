@@ -43,6 +43,22 @@ MODELS = {"one-layer": LEAN, "radial": LEAN, "line": LEAN, "quarter": LEAN, "pla
 """Geometries that are solved, the cheapest first."""
 
 
+NUMERICS: dict[str, dict[str, str | int]] = {
+    "default": {},
+    "paper": {
+        "model": "quarter",
+        "scheme": "ifcph",
+        "front_flux": "hll",
+        "order": 1,
+        "cells": 200,
+        "boundary": "paper",
+    },
+    "resolved": {"model": "auto", "scheme": "ifcph", "order": 2, "cells": 3200},
+    "fronts": {"quantities": "grains", "grid": "fitted", "cells": 48},
+}
+"""Named sets of numerics: values by key."""
+
+
 def flags(mapping: dict[str, bool]) -> dict[str, int]:
     """Return the integer by which kernels know each name of a mapping of this module."""
     return {name: place for place, name in enumerate(mapping)}

@@ -107,7 +107,7 @@ def coefficients(cells: int, far: float) -> tuple[np.ndarray, np.ndarray, np.nda
 
 
 def far_end(point: Point, fan: Fan) -> float:
-    """Return where the grid of a point ends, over R: so far that cells beyond the fan never shrink below those in it.
+    """Return where the grid of a point ends: so far that cells beyond the fan never shrink below those in it.
 
     Parameters
     ----------
@@ -115,6 +115,11 @@ def far_end(point: Point, fan: Fan) -> float:
         The run.
     fan
         Its fan.
+
+    Returns
+    -------
+    float
+        Distance over R.
     """
     left, fan_cells, right = parts(point.cells)
     _, farthest = ends(fan, point.latest_end / point.time_scale)
@@ -124,7 +129,7 @@ def far_end(point: Point, fan: Fan) -> float:
 def first_edges(
     point: Point, fan: Fan, coefficients: tuple[np.ndarray, np.ndarray, np.ndarray]
 ) -> np.ndarray:
-    """Return the edges (cells + 1) over R at the start, the column's side at 1 to the bit.
+    """Return the edges of the cells at the start.
 
     Parameters
     ----------
@@ -134,6 +139,11 @@ def first_edges(
         Its fan.
     coefficients
         What its edges are made of.
+
+    Returns
+    -------
+    ndarray
+        Places (cells + 1) over R; the column's side is one of them, to the bit.
     """
     base, near, ahead = coefficients
     left, right = ends(fan, 0.0)

@@ -37,7 +37,22 @@ class Snapshot(NamedTuple):
 
 
 def taken(time: float, model: Model, fields: bool) -> Snapshot:
-    """Return the snapshot of a model at a time (s), with fields if they are kept."""
+    """Return the snapshot of a model as it is.
+
+    Parameters
+    ----------
+    time
+        Time (s) that it has reached.
+    model
+        What is run.
+    fields
+        Whether fields are kept.
+
+    Returns
+    -------
+    Snapshot
+        Copies of its profiles and fields.
+    """
     return Snapshot(time, model.x, model.width, model.profile(), model.fields() if fields else None)
 
 

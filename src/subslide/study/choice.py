@@ -76,7 +76,20 @@ def of(point: Point) -> Choice:
 
 
 def unfit(point: Point, geometry: str) -> str:
-    """Return why a point, solved in a geometry, can have no fitted grid, in words; '' if it can."""
+    """Return why a point can have no fitted grid.
+
+    Parameters
+    ----------
+    point
+        The run.
+    geometry
+        Geometry that it is solved in.
+
+    Returns
+    -------
+    str
+        Words; '' if it can.
+    """
     if not scenes.is_column(point):
         return "the scene is not one column about the axis"
     if geometry not in ("radius", "line"):

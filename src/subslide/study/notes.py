@@ -61,7 +61,7 @@ NOTES = (
         lambda point: choice.is_fitted(point) and point.cells < FEWEST_FITTED,
         f"with fewer than {FEWEST_FITTED} cells the length of the deposit errs by up to several percent",
         "cells: 48",
-        {"grid": "fitted", "cells": 12},
+        {"grid": "fitted", "cells": 12, "a_H": 0.5, "a_2": 1.5, "r": 0.8, "delta": 20},
         {"grid": "fitted", "cells": 48},
         "",
     ),
