@@ -173,7 +173,7 @@ def unused_part(ledger: str, output: str) -> tuple[Path, Path]:
 
 
 def warm(kernels: tuple[str, ...]) -> Iterator[str]:
-    """Compile kernels, named 'model:dtype[:fitted][:general]', into the cache by a tiny run of each; yield a line for each.
+    """Compile kernels, named 'model:dtype[:fitted][:general]', into the cache by tiny runs; yield a line for each.
 
     Raises
     ------

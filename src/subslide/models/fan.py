@@ -12,8 +12,9 @@ import math
 
 import numpy as np
 
+from subslide.kernels import motion
 from subslide.kernels.arrays import Fan
-from subslide.kernels.motion import ends
+from subslide.kernels.jit import plain
 from subslide.points import Point
 
 PARTS = (10, 21, 17)
@@ -39,6 +40,10 @@ FAR = 8.0
 
 BEYOND = 1.3
 """Mean size of the cells beyond the fan, over that of its last one, at least."""
+
+
+ends = plain(motion.ends)
+"""Where the ends of the fan are at a time, as Python."""
 
 
 def parts(cells: int) -> tuple[int, int, int]:
