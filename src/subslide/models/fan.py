@@ -17,13 +17,13 @@ from subslide.kernels.arrays import Fan
 from subslide.kernels.jit import plain
 from subslide.points import Point
 
-PARTS = (10, 21, 17)
+PARTS = (11, 21, 16)
 """Of 48 cells: those behind the fan, in it and beyond it."""
 
 START = 2.0
 """Width of the part of the fan that is in the column at the start, times the number of cells to 3/2: 0.006 with 48."""
 
-FRONT = 1.5
+FRONT = 1.6
 """Speed of the right end of the fan at the start, over that of waves into the column: the 1 % front has 1.7."""
 
 SHARE = 0.65
