@@ -73,6 +73,17 @@ def grown(motion, k, h):
 
 
 @inlined
+def gained(motion, k, amount, change):
+    """Return what cell k gains per volume in a step: a change, and by its growth a part of the amount that it has.
+
+    Where water is still the two cancel. Added first, they leave its depth alone; one by one each rounds it.
+    """
+    if motion is None:
+        return change
+    return motion.growth[k] * amount + change
+
+
+@inlined
 def over_width(motion, k, dt, dx):
     """Return what a step does by forces on the sides of cell k, over the difference of their pressures."""
     if motion is None:
