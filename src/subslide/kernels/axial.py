@@ -11,7 +11,7 @@ from subslide.kernels.friction import COULOMB
 from subslide.kernels.friction.coulomb import head
 from subslide.kernels.hyperbolicity import RUB, rub
 from subslide.kernels.jit import inlined, part
-from subslide.kernels.motion import gained, gap_at, grown, over_width
+from subslide.kernels.motion import gained, gap_at, grown, normal, over_width
 from subslide.kernels.positivity import limit, reference, share
 from subslide.kernels.printed import braking
 from subslide.kernels.slowing import first_reach, law_left, left_of
@@ -132,7 +132,7 @@ def advance_layer(s, h, u, flux, keep, inner, mesh, motion, dt, k):
     push = over_width(motion, k, dt, s.dx) * (type(dt)(0.5) * (p[k] + p[k + 1]) + inner[i])
     depth = h[i] + gained(motion, k, h[i], before * f[k] - after * f[k + 1])
     q = h[i] * u[i]
-    return depth, q + gained(motion, k, q, before * m[k] - after * m[k + 1]) - push
+    return normal(motion, depth), q + gained(motion, k, q, before * m[k] - after * m[k + 1]) - push
 
 
 @inlined

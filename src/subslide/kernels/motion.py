@@ -3,6 +3,8 @@
 Functions of `Motion` take None too, for cells of one size at rest: then they are compiled to nothing.
 """
 
+import numpy as np
+
 from subslide.kernels.arrays import GHOSTS
 from subslide.kernels.jit import inlined, part
 from subslide.kernels.waves import grain_speeds
@@ -81,6 +83,15 @@ def gained(motion, k, amount, change):
     if motion is None:
         return change
     return motion.growth[k] * amount + change
+
+
+@inlined
+def normal(motion, depth):
+    """Return a depth, of cells that move 0 where it is subnormal: there rounding can take more than is left."""
+    if motion is None:
+        return depth
+    real = type(depth)
+    return real(0) if abs(depth) < np.finfo(real).tiny else depth
 
 
 @inlined
