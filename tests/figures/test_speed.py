@@ -22,13 +22,16 @@ ABOUT = {"a_2": 0.56, "r": 0.4, "delta": 32.0, "radius": 0.0705}
 USUAL = {key: getattr(Point(), key) for key in METHOD}
 
 
-def made_up(depths=(1.0, 10.0), failed=False):
-    """Return a table with runs on 50, 100 and 200 cells of three methods: errors halve, seconds grow eightfold."""
+def made_up(depths=(1.0, 10.0), failed=False, also=None):
+    """Return a table with runs on 50, 100 and 200 cells of three methods: errors halve, seconds grow eightfold.
+
+    also: more methods.
+    """
     rows = []
     for a_H in depths:
         for quantity in table.QUANTITIES:
             some = []
-            for name, method in METHODS.items():
+            for name, method in {**METHODS, **(also or {})}.items():
                 for k, cells in enumerate((50, 100, 200)):
                     lost = failed and (name, cells) == ("", 200)
                     some.append(
@@ -86,6 +89,30 @@ def test_every_run_is_a_symbol_and_methods_and_front_are_lines():
     np.testing.assert_allclose(strong[work_precision.STRONG["paper"]["color"]].get_ydata(), [16, 8, 4])
     front = next(line for line in ax.get_lines() if line.get_linewidth() > 3)
     np.testing.assert_allclose(np.unique(front.get_ydata()), [1, 2, 4])
+
+
+def test_fitted_grids_have_a_line_and_a_marker_where_there_are_any():
+    fitted = {
+        "model": "radial",
+        "scheme": "ifcph",
+        "order": 2,
+        "grid": "fitted",
+        "seconds": 1e-4,
+        "error": 0.02,
+    }
+    plain, more = (work_precision.draw(made_up(also=also)) for also in ({}, {"fitted": fitted}))
+    for figure, count in ((plain, 0), (more, 1)):
+        labels = [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+        assert sum(label.startswith("the same on a fitted grid") for label in labels) == count
+        assert sum(label == "radial, fitted grid" for label in labels) == count
+    color = work_precision.STRONG["fitted"]["color"]
+    ax = panels(more)[0]
+    (line,) = (line for line in ax.get_lines() if line.get_color() == color and line.get_linestyle() == "-")
+    np.testing.assert_allclose(line.get_ydata(), [2, 1, 0.5])
+    assert [text.get_text() for text in ax.texts if text.get_color() == color] == ["50", "100", "200"]
+    markers = {line.get_marker() for line in ax.get_lines() if line.get_linestyle() == "None"}
+    assert work_precision.FITTED in markers
+    assert work_precision.FITTED not in {line.get_marker() for line in panels(plain)[0].get_lines()}
 
 
 def test_the_factor_is_that_at_the_error_of_the_papers_finest_grid():

@@ -99,7 +99,7 @@ def write_tables():
     """Function that writes tables of the study in a folder, all that every study has unless named, and reads it."""
 
     def write(folder, *names):
-        of_bands = ("bands",) if Results(folder).companions else ()
+        of_bands = ("bands",) if Results(folder).has_bands else ()
         for name in names or (*of_bands, "runs", "timing", "series"):
             _write.write(name, Results(folder))
         return Results(folder)

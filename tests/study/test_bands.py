@@ -4,12 +4,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from fitted import fitted
 
 from subslide.__main__ import main
+from subslide.keys.schema import ConfigError
 from subslide.study import config
 from subslide.tables import _calibration as calibration
+from subslide.tables import _fitted_bands as fitted_bands
 from subslide.tables import bands
-from subslide.tables._convergence import CONVERGING, NO_LIMIT, NOT_CONVERGED, estimate
+from subslide.tables._convergence import CONVERGING, NO_LIMIT, NOT_CONVERGED, ONE_GRID, estimate
 
 FINAL = 0.14
 """m, limit of the made-up deposits, whose error is the cell size."""
@@ -46,10 +49,10 @@ def test_every_quantity_has_its_row_and_the_limit_is_found(finish, first_order):
     found = finish(first_order, a_H=[1, 2], snapshot_times=[0, 0.5]).bands
     assert list(found.columns) == list(bands.COLUMNS)
     once, timed = found[found["time"].isna()], found[found["time"].notna()]
-    assert set(once["quantity"]) == set(bands.ONCE)
+    assert set(once["quantity"]) == set(bands.ONCE) - set(bands.ARRESTS)
     assert set(timed["quantity"]) == set(bands.QUANTITIES) - set(bands.ONCE)
     assert set(timed["time"]) == {0.5}  # neither the start nor the end, whose time depends on the grid
-    assert len(found) == 2 * len(bands.QUANTITIES)
+    assert len(found) == 2 * (len(bands.QUANTITIES) - len(bands.ARRESTS))
     deposits = found[found["quantity"].str.startswith("L_f")]
     assert deposits["order"].to_numpy() == pytest.approx(1, abs=1e-6)
     assert deposits["limit"].to_numpy() == pytest.approx(FINAL, rel=1e-9)
@@ -67,7 +70,7 @@ def test_the_table_of_runs_repeats_bands_and_holds_no_companion(finish, first_or
     assert results.runs["cells"].tolist() == [160, 160]
     assert [run.point.cells for run in results.runs_of_study] == [160, 160]
     assert {one.point.cells for one in results.companions} == {80, 40}
-    for name in bands.ONCE:
+    for name in set(bands.ONCE) - set(bands.ARRESTS):
         rows = results.bands[results.bands["quantity"] == name]
         for part in bands.SUMMARY:
             np.testing.assert_array_equal(rows[part], results.runs[f"{name}_{part}"])
@@ -170,7 +173,7 @@ def test_without_bands_there_is_no_table(finish, first_order):
     assert list(results.bands.columns) == list(bands.COLUMNS)
     assert results.bands.empty
     assert (
-        results.runs[[f"{name}_{part}" for name in bands.ONCE for part in bands.SUMMARY]]
+        results.runs[[f"{name}_{part}" for name, parts in bands.SUMMARIES.items() for part in parts]]
         .isna()
         .all(axis=None)
     )
@@ -186,6 +189,120 @@ def test_on_real_runs_the_answer_of_a_finer_grid_lies_in_the_band(finish):
         lengths = found.loc[["L_f_1pc", "L_f_3pc", "L_f_5pc"]]
         assert (np.abs(lengths["value"] - finer.L_f) < lengths["band"]).all()
         assert (lengths["band"] < 0.01 * lengths["value"]).all()  # and it is no empty statement
+
+
+def of_fitted(first_order):
+    """Function that makes up runs with times of arrest, on a fitted grid without anything of waves where asked for."""
+
+    def make(point, **changes):
+        run = first_order(point, time_of_arrest=np.array([0.3, 0.2, 0.1]), **changes)
+        return fitted(run) if point.grid == "fitted" else run
+
+    return make
+
+
+FITTED = {"grid": "fitted", "cells": 48}
+
+
+def test_runs_on_fitted_grids_have_bands_and_no_companions(finish, first_order):
+    results = finish(of_fitted(first_order), **FITTED, a_H=[1, 2], snapshot_times=[0, 0.5])
+    assert results.has_bands
+    assert results.companions == ()
+    rows = results.bands
+    fronts = {name for name in bands.QUANTITIES if "eta" not in name}
+    assert set(rows["quantity"]) == fronts
+    assert len(rows) == 2 * len(fronts)
+    assert rows[["value_2", "value_4", "order", "limit"]].isna().all(axis=None)
+    assert set(rows["convergence"]) == {ONE_GRID}
+    assert rows["calibrated"].all()
+    runs = results.runs.set_index("id")
+    for name in ("L_f_1pc", "time_of_arrest_5pc"):
+        of_name = rows[rows["quantity"] == name].set_index("id")
+        assert of_name["value"].to_dict() == runs[name].to_dict()
+        assert of_name["band"].to_dict() == runs[f"{name}_band"].to_dict()
+    assert set(runs["L_f_1pc_convergence"]) == {ONE_GRID}
+
+
+def test_the_band_on_a_fitted_grid_is_a_share_that_grows_where_dense_water_is_shallow(finish, first_order):
+    rows = finish(of_fitted(first_order), **FITTED, a_H=1, r=[0, 0.4]).bands.set_index(["quantity", "id"])
+    share = rows["band"] / rows["value"]
+    alone, dense = share["L_f_3pc"]
+    assert alone == pytest.approx(fitted_bands.SHARES["arrived"][1][2])
+    assert dense == pytest.approx(alone * (1 + fitted_bands.SHALLOW * 0.4))
+    assert share["time_of_arrest_1pc"].iloc[0] == pytest.approx(fitted_bands.SHARES["arrest"][0][2])
+
+
+def test_bands_on_fitted_grids_between_those_that_were_calibrated_lie_between_theirs():
+    def band(cells, value=1.0, quantity="x_front_1pc"):
+        point = config.make_point({"grid": "fitted", "cells": cells, "r": 0})
+        return fitted_bands.half_width(point, quantity, value, 1.0)
+
+    assert band(34) > band(40) > band(48) > band(50)
+    middle = np.log(40 / 34) / np.log(48 / 34)
+    assert band(40) == pytest.approx(band(34) ** (1 - middle) * band(48) ** middle)
+    assert band(24, 0.5) / 0.5 == pytest.approx(fitted_bands.SHARES["moving"][0][0])  # on its way
+    assert band(24, 0.95) / 0.95 == pytest.approx(fitted_bands.SHARES["arrived"][0][0])
+
+
+@pytest.mark.parametrize(
+    ("unlike", "wider"),
+    [
+        ({"a_H": 20}, 4),
+        ({"scheme": "hll"}, 4),
+        ({"friction": "voellmy"}, 4),
+        ({"scene": "slab"}, 4),
+        ({"order": 1}, 16),
+        ({"cells": 220}, 4),
+        ({"cells": 12}, 16),
+        ({"a_2": 3, "delta": 20}, 4 * (0.24 * 3 / np.tan(np.radians(20))) ** 3),
+        ({"delta": 0, "t_end": 1}, 4 * 2.4**3),
+    ],
+)
+def test_bands_of_fitted_runs_unlike_those_that_were_calibrated_are_wider(unlike, wider):
+    point = config.make_point({**FITTED, **unlike})
+    assert not fitted_bands.is_calibrated(point)
+    shares = fitted_bands.SHARES["arrived"][0]
+    share = {48: shares[2], 220: shares[-1], 12: shares[0]}[point.cells] * (1 + 4 * 0.4 / point.a_H)
+    assert fitted_bands.half_width(point, "L_f_1pc", 1.0, 1.0) == pytest.approx(wider * share)
+
+
+def test_a_fitted_run_that_failed_has_no_band(finish, first_order):
+    results = finish(of_fitted(lambda point, **kw: first_order(point, status="diverged", **kw)), **FITTED)
+    assert set(results.bands["convergence"]) == {NOT_CONVERGED, NO_LIMIT}
+    assert results.bands["band"].isna().all()
+
+
+def test_runs_on_both_grids_stand_in_one_study(finish, first_order):
+    results = finish(of_fitted(first_order), grid=["uniform", "fitted"], cells=160)
+    assert {one.of for one in results.companions} == {results.runs["id"][0]}
+    of_length = results.bands[results.bands["quantity"] == "L_f_1pc"].set_index("id").loc[results.runs["id"]]
+    assert of_length["convergence"].tolist() == [CONVERGING, ONE_GRID]
+    assert of_length["value_2"].notna().tolist() == [True, False]
+    arrests = results.bands[results.bands["quantity"].isin(bands.ARRESTS)]
+    assert set(arrests["id"]) == {results.runs["id"][1]}
+
+
+def test_cells_of_a_fitted_grid_need_not_halve():
+    assert config.make_study({"study": "t", "bands": True, "grid": "fitted", "cells": 34}).companions == ()
+    with pytest.raises(ConfigError, match="a multiple of 4 from 40"):
+        config.make_study({"study": "t", "bands": True, "grid": ["fitted", "uniform"], "cells": 34})
+
+
+def test_on_real_fitted_runs_a_converged_answer_lies_in_the_band(finish):
+    from subslide.solver import solve
+
+    results = finish(solve, **FITTED, a_H=[0.5, 1, 10], r=[0.1, 0.7])
+    values = results.bands.set_index(["id", "quantity"])
+    for run in results.runs_of_study:
+        finer = solve(run.point.with_values(grid="uniform", cells=3200))
+        rows = values.loc[run.id]
+        for names, answer, most in (
+            (["L_f_1pc", "L_f_3pc", "L_f_5pc"], finer.L_f, 0.03),
+            (list(bands.ARRESTS), finer.time_of_arrest, 0.35),
+        ):
+            some = rows.loc[names]
+            assert (np.abs(some["value"] - answer) < some["band"]).all()
+            assert (some["band"] < most * some["value"]).all()  # and it is no empty statement
 
 
 def test_pages_of_columns_name_every_quantity():

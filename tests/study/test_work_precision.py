@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 import pytest
+from fitted import fitted
 
 from subslide.__main__ import main
 from subslide.keys.schema import ConfigError
@@ -62,7 +63,7 @@ def solved(make_run, point, error):
         return make_run(point, status="diverged", L_f=nothing, wall_seconds=1e-6)
     time, factor = np.linspace(0, 1, 21), 1 - error
     height = point.a_2 * point.radius
-    return make_run(
+    run = make_run(
         point,
         time=time,
         x_front=np.outer([1.0, 0.9, 0.8], factor * point.radius * (1 + time)),
@@ -71,6 +72,7 @@ def solved(make_run, point, error):
         L_f=factor * LIMIT * point.radius * np.ones(3),
         wall_seconds=seconds_of(point),
     )
+    return fitted(run) if point.grid == "fitted" else run
 
 
 def read(folder, name="work_precision"):
@@ -182,6 +184,40 @@ def test_cheapest_choices(folder):
     assert math.isnan(chosen.loc[0.005, "cells"])  # the truth is not known that well
     assert chosen["paper_reaches"].tolist()[:3] == [True, False, False]
     assert chosen["factor"].tolist()[:3] == pytest.approx([64e3, 16e3, 4e3])
+
+
+FITTED = {"model": "radial", "order": 2, "grid": "fitted", "cells": [16, 48]}
+
+
+def test_fitted_grids_are_numerics_of_their_own_without_waves(folder):
+    """Made-up fitted runs err by 1 and 0.5 %, in less time than any other."""
+    error = lambda point: 0.16 / point.cells if point.grid == "fitted" else error_of(point)  # noqa: E731
+    found = folder(error, cases=[*SWEEP["cases"], FITTED])
+    rows = read(found)
+    for quantity in ("L_f", "x_front"):
+        some = of(rows, quantity, method="fitted")
+        assert some["error"].tolist() == pytest.approx([0.01, 0.16 / 48], rel=1e-6)
+        assert some["grid"].tolist() == ["fitted"] * 2
+        assert some["on_front"].all()
+        assert some["factor"].tolist()[0] == pytest.approx(
+            seconds_of(Point(**FITTED | {"cells": 16})) / 16e-3
+        )
+    waves = rows[(rows["method"] == "fitted") & rows["quantity"].isin(table.WAVES)]
+    assert len(waves) == 4
+    assert waves[["error", "sure_error", "factor"]].isna().all(axis=None)
+    assert not waves["on_front"].any()
+    assert set(waves["status"]) == {"ok"}
+    chosen = of(read(found, "cheapest"), numerics="any", target=0.01)
+    assert chosen[["grid", "cells"]].to_numpy().tolist() == [["fitted", 16]]
+    assert of(read(found, "cheapest"), "max_abs_eta", numerics="any", target=0.01)["cells"].tolist() == [160]
+    entries = words_of.choices(read(found, "cheapest"))
+    assert any("fitted grid, 16 cells" in entry and "(default: 160 cells" in entry for entry in entries[3])
+
+
+def test_a_grid_counts_by_what_is_solved():
+    point = Point(grid="auto", quantities="grains")
+    assert problems.NAMES[problems.method(point)] == "fitted"
+    assert problems.NAMES[problems.method(point.with_values(quantities="all"))] == "default"
 
 
 def test_problems_need_the_plane_and_three_grids_on_a_radius():

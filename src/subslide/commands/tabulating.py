@@ -100,7 +100,7 @@ def tables(results: str) -> None:
     from subslide.tables import _write
 
     study = Results(results)
-    if study.companions:
+    if study.has_bands:
         write("bands", results)
     else:
         _write.remove("bands", study.folder)

@@ -62,11 +62,11 @@ class Kind(NamedTuple):
         Returns
         -------
         DataFrame
-            A row for each time: ``time`` (s; NaN for a final length), ``value`` and ``band`` (SI units), ``ordered`` (1
-            where three grids give an order, else 0).
+            A row for each time: ``time`` (s; NaN for a final length), ``value`` and ``band`` (SI units), ``ordered`` (0
+            where three grids give no order, else 1).
         """
         rows = self.bands[(self.bands["id"] == run) & (self.bands["quantity"] == quantity)]
-        ordered = rows["convergence"] == convergence.CONVERGING
+        ordered = ~rows["convergence"].isin(convergence.UNORDERED)
         return rows.assign(ordered=ordered)[["time", "value", "band", "ordered"]].astype(float)
 
 
@@ -165,7 +165,7 @@ def note(kinds: list[Kind], quantities: tuple[str, ...], what: str) -> list[str]
     counts = []
     for kind in kinds:
         rows = kind.bands[kind.bands["quantity"].isin(quantities)]
-        lost = int((rows["convergence"] != convergence.CONVERGING).sum())
+        lost = int(rows["convergence"].isin(convergence.UNORDERED).sum())
         name = f"{TITLES[kind.name]} " if kind.name else ""
         counts.append(f"{name}{lost} of {len(rows)}")
     return [

@@ -25,9 +25,12 @@ QUANTITIES = {
     "max_abs_eta": "max$\\,|\\eta|(t)$",
     "max_abs_eta_outside": "max$\\,|\\eta|(t)$ beyond $R$",
 }
-MODELS = {"radial": "o", "quarter": "s", "plane": "^"}
+MODELS = {"radial": "o", "quarter": "s", "plane": "^", "one-layer": "v"}
+FITTED = "D"
+"""Marker of runs on fitted grids."""
 STRONG = {
     "default": {"color": "black", "label": "default numerics on a radius"},
+    "fitted": {"color": "#0072b2", "label": "the same on a fitted grid"},
     "paper": {"color": "#c8102e", "label": "the paper's method in the plane"},
 }
 TICKS = (0.01, 0.05, 0.1, 0.5, 1, 2, 5, 10, 20, 50, 100)
@@ -80,24 +83,24 @@ def draw(results: "Results") -> Figure:
         _notes(every, len(places) - len(shown)),
         _entries(looks, table),
         6,
-        _lines(),
+        _lines(table),
     )
 
 
 def _panel(ax: Axes, rows: pd.DataFrame, looks: dict[str, _style.Look]) -> None:
     """Draw all runs as symbols, and on them the front, the two methods and the factors between."""
     ax.set(xscale="log", yscale="log")
-    for (scheme, model, order), some in rows.groupby(["scheme", "model", "order"]):
-        look = {**_symbol(looks[scheme]["color"], model, order), "alpha": 0.5}
+    for (scheme, model, order, grid), some in rows.groupby(["scheme", "model", "order", "grid"]):
+        look = {**_symbol(looks[scheme]["color"], model, order, grid), "alpha": 0.5}
         ax.plot(some["seconds"], 100 * some["sure_error"], zorder=2, **look)
     front = rows[rows["on_front"]].sort_values("seconds")
     ax.step(front["seconds"], 100 * front["sure_error"], where="post", **_FRONT)
     for name, line in STRONG.items():
         some = rows[rows["method"] == name].sort_values("cells")
         if not some.empty:
-            order, model = some[["order", "model"]].iloc[0]
+            order, model, grid = some[["order", "model", "grid"]].iloc[0]
             ax.plot(some["seconds"], 100 * some["sure_error"], color=line["color"], linewidth=1.2, zorder=4)
-            symbol = _symbol(line["color"], model, order) | {"markersize": 3.6, "zorder": 5}
+            symbol = _symbol(line["color"], model, order, grid) | {"markersize": 3.6, "zorder": 5}
             ax.plot(some["seconds"], 100 * some["sure_error"], **symbol)
             _counts(ax, some, line["color"], name)
     _factors(ax, rows)
@@ -113,7 +116,7 @@ def _panel(ax: Axes, rows: pd.DataFrame, looks: dict[str, _style.Look]) -> None:
 def _counts(ax: Axes, rows: pd.DataFrame, color: str, name: str) -> None:
     """Write the cells of some runs of a method beside their symbols."""
     for _, row in rows.iterrows():
-        if name == "paper" or row["cells"] in (25, 100, 400, 1600, 6400, 25600):
+        if name != "default" or row["cells"] in (25, 100, 400, 1600, 6400, 25600):
             ax.annotate(
                 f"{row['cells']:.0f}",
                 (row["seconds"], 100 * row["sure_error"]),
@@ -161,10 +164,10 @@ def _round(value: float) -> int:
 _FRONT = {"color": "#f2a900", "linewidth": 3.5, "alpha": 0.75, "zorder": 1, "solid_capstyle": "round"}
 
 
-def _symbol(color: Any, model: str, order: int) -> _style.Look:
-    """Return the look of a run: its marker says the model, filled means second order."""
+def _symbol(color: Any, model: str, order: int, grid: str = "uniform") -> _style.Look:
+    """Return the look of a run: its marker says the model, or a fitted grid; filled means second order."""
     return {
-        "marker": MODELS.get(model, "D"),
+        "marker": FITTED if grid == "fitted" else MODELS[model],
         "color": color,
         "linestyle": "",
         "markersize": 2.6,
@@ -184,6 +187,9 @@ def _entries(looks: dict[str, _style.Look], table: pd.DataFrame) -> list[_style.
         for model in MODELS
         if model in set(table["model"])
     ]
+    if "fitted" in set(table["grid"]):
+        symbol = _symbol(_style.GREY, "radial", 2, "fitted") | {"markersize": 5}
+        models.append((Line2D([], [], **symbol), "radial, fitted grid"))
     orders = [
         (Line2D([], [], **_symbol(_style.GREY, "radial", order) | {"markersize": 5}), f"order {order}")
         for order in (2, 1)
@@ -191,11 +197,15 @@ def _entries(looks: dict[str, _style.Look], table: pd.DataFrame) -> list[_style.
     return schemes + models + orders
 
 
-def _lines() -> list[_style.Entry]:
+def _lines(table: pd.DataFrame) -> list[_style.Entry]:
     """Return the entries of the legend for lines and shades."""
     lines = [
-        (Line2D([], [], color=line["color"], marker="o", linewidth=1.2), f"{line['label']} (cells beside it)")
-        for line in STRONG.values()
+        (
+            Line2D([], [], color=line["color"], marker=FITTED if name == "fitted" else "o", linewidth=1.2),
+            f"{line['label']} (cells beside it)",
+        )
+        for name, line in STRONG.items()
+        if name in set(table["method"])
     ]
     front = (Line2D([], [], **{**_FRONT, "zorder": 2}), "Pareto front: no run is cheaper and as accurate")
     return [*lines, front, (Patch(color="0.93"), "below the uncertainty of the converged answer")]

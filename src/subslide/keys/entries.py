@@ -110,8 +110,8 @@ ENTRIES: dict[str, Entry] = {
     },
     "bands": {
         "role": STUDY,
-        "description": "solve each run on grids of cells/2 and cells/4 too, and state an estimate of the limit and of"
-        " the discretisation error beside each quantity; cells is then a multiple of 4 from 40",
+        "description": "state the discretisation error beside each quantity; on a uniform grid also an estimate of the"
+        " limit, from runs on grids of cells/2 and cells/4: cells is then a multiple of 4 from 40",
         "type": "boolean",
         "default": False,
     },

@@ -60,7 +60,8 @@ end when friction stops its grains, and a box to grow as far as they may go; a r
 `cases`.
 
 `bands: true` solves each run on two coarser grids as well, and estimates from the three what the finest leaves
-uncertain; see `bands.csv` in docs/tables.md. Adding or removing it computes the coarser runs alone, or nothing.
+uncertain; see `bands.csv` in docs/tables.md. Adding or removing it computes the coarser runs alone, or nothing. Runs on
+fitted grids need none.
 
 Changing the lists computes only what is new: each point has a name that depends on its values alone (`1` and `1.0`
 are the same), a ledger in `results/<study>/batches/` remembers which record holds it, and points that are no longer

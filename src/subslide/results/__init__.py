@@ -14,7 +14,7 @@ from subslide import catalogue
 from subslide.files import RecordError
 from subslide.keys.schema import ConfigError
 from subslide.results import reading
-from subslide.results.listing import AGAIN, Companion, StudyRun, listed, verify
+from subslide.results.listing import AGAIN, Companion, Listing, StudyRun, listed, verify
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -42,16 +42,21 @@ class Results:
     @functools.cached_property
     def runs_of_study(self) -> tuple[StudyRun, ...]:
         """Return the runs in the order of the tables; ConfigError if the folder is none of a study."""
-        return self._listed[0]
+        return self._listed.runs
 
     @functools.cached_property
     def companions(self) -> tuple[Companion, ...]:
-        """Return the coarser runs of a study with bands; none without."""
-        return self._listed[1]
+        """Return the coarser runs that those on uniform grids have in a study with bands; none without."""
+        return self._listed.companions
+
+    @property
+    def has_bands(self) -> bool:
+        """Return whether the study was made with `bands: true`."""
+        return self._listed.has_bands
 
     @functools.cached_property
-    def _listed(self) -> tuple[tuple[StudyRun, ...], tuple[Companion, ...]]:
-        """Return the runs and companions that points.json states."""
+    def _listed(self) -> Listing:
+        """Return what points.json states."""
         return listed(self.folder)
 
     @overload
@@ -173,7 +178,7 @@ class Results:
     @functools.cached_property
     def bands(self) -> "pd.DataFrame":
         """Return the tidy table of bands, a row for each run, quantity and time; empty for a study without bands."""
-        return self.table("bands") if self.companions else _empty("bands")
+        return self.table("bands") if self.has_bands else _empty("bands")
 
     @functools.cached_property
     def errors(self) -> "pd.DataFrame":

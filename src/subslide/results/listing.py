@@ -37,8 +37,16 @@ class Companion(NamedTuple):
     batch: str
 
 
-def listed(folder: Path) -> tuple[tuple[StudyRun, ...], tuple[Companion, ...]]:
-    """Return the runs of a study, in the order of the tables, and their companions.
+class Listing(NamedTuple):
+    """The runs of a study, in the order of the tables, their companions, and whether the study has bands."""
+
+    runs: tuple[StudyRun, ...]
+    companions: tuple[Companion, ...]
+    has_bands: bool
+
+
+def listed(folder: Path) -> Listing:
+    """Return the runs of a study, and whether they have bands.
 
     Parameters
     ----------
@@ -47,7 +55,7 @@ def listed(folder: Path) -> tuple[tuple[StudyRun, ...], tuple[Companion, ...]]:
 
     Returns
     -------
-    tuple of StudyRun and tuple of Companion
+    Listing
         What points.json states. Without its checksum, as in folders of the version before, each row is checked.
 
     Raises
@@ -79,7 +87,7 @@ def listed(folder: Path) -> tuple[tuple[StudyRun, ...], tuple[Companion, ...]]:
         raise RecordError(f"{path} is damaged or not of this version ({what}); {AGAIN}") from None
     if fault and checksums.beside(path).exists():
         raise RecordError(f"{fault}; {AGAIN}")
-    return runs, others
+    return Listing(runs, others, "companions" in sections)
 
 
 def verify(path: Path) -> None:

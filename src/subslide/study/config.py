@@ -11,7 +11,7 @@ from typing import Any
 from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS, Point, from_dict
-from subslide.study import checking, cost, scene_options, together, whole_study
+from subslide.study import checking, choice, cost, scene_options, together, whole_study
 from subslide.study.yaml_files import read_yaml
 
 MOST_POINTS = 200_000
@@ -34,7 +34,7 @@ class Study:
     runs
         Label of the numerics, and point, of each run, without repeats, in the order of the tables.
     bands
-        Whether each run has companions on coarser grids.
+        Whether each run has bands, for which those on uniform grids have companions on coarser ones.
     """
 
     name: str
@@ -49,11 +49,11 @@ class Study:
 
     @property
     def companions(self) -> tuple[tuple[Point, str, Point], ...]:
-        """Run, role and point of each companion: none without bands, else two for each run."""
+        """Run, role and point of each companion: none without bands, else two for each run on a uniform grid."""
         return tuple(
             (point, role, point.with_values(cells=point.cells // ratio))
             for point in self.points
-            if self.bands
+            if self.bands and not choice.is_fitted(point)
             for role, ratio in COARSENING.items()
         )
 
@@ -93,10 +93,7 @@ def make_study(values: dict) -> Study:
     whole = whole_study.values_of(values)
     bands = whole["bands"]
     grids = _grids(values)
-    count = sum(map(_count, (axes for _, axes in grids))) * (1 + bands * len(COARSENING))
-    if count > MOST_POINTS:
-        among = ", companions for bands among them" if bands else ""
-        raise ConfigError(f"the grid has {count} points{among}; allowed: at most {MOST_POINTS}")
+    _check_count(sum(map(_count, (axes for _, axes in grids))))
     runs: dict[str, tuple[str, Point]] = {}
     for place, axes in grids:
         with _named(place):
@@ -104,6 +101,8 @@ def make_study(values: dict) -> Study:
                 runs.setdefault(point.id, (label, point))
     figures = whole_study.figures_of(whole["figures"], [point for _, point in runs.values()])
     study = Study(whole["study"], figures, tuple(runs.values()), bands)
+    alone = sum(not choice.is_fitted(point) for point in study.points) if bands else 0
+    _check_count(len(runs) + alone * len(COARSENING), ", companions for bands among them")
     cost.check(study.solved, whole, "the study")
     return study
 
@@ -214,14 +213,23 @@ def _count(axes: dict[str, Any]) -> int:
     )
 
 
+def _check_count(count: int, among: str = "") -> None:
+    """Raise a ConfigError if a study would have too many points."""
+    if count > MOST_POINTS:
+        raise ConfigError(f"the grid has {count} points{among}; allowed: at most {MOST_POINTS}")
+
+
 def _product(axes: dict[str, Any], bands: bool) -> Iterator[tuple[str, Point]]:
-    """Give the label of the numerics, and the point, of each combination of axes; `bands`: cells must halve twice."""
+    """Give the label of the numerics, and the point, of each combination of axes.
+
+    bands: cells must halve twice, but of a fitted grid, which has no companions.
+    """
     if "scene_options" in axes:
         axes = {**axes, "scene_options": scene_options.along_axes(axes["scene_options"])}
     for combination in itertools.product(*axes.values()):
         label, point = resolve(dict(zip(axes, combination, strict=True)))
         coarsest, left = divmod(point.cells, max(COARSENING.values()))
-        if bands and (left or coarsest < FEWEST_CELLS):
+        if bands and (left or coarsest < FEWEST_CELLS) and not choice.is_fitted(point):
             raise ConfigError(
                 f"cells: {point.cells} is not allowed with bands: true, which needs runs with cells/2 and cells/4;"
                 f" allowed: a multiple of 4 from {4 * FEWEST_CELLS}"

@@ -6,6 +6,7 @@ columns drawn at random, and that of a wave follows from the differences of the 
 """
 
 import math
+from collections.abc import Collection
 from typing import NamedTuple
 
 import numpy as np
@@ -53,11 +54,16 @@ SOLVERS = (("ifcph", 2, "exact"), ("ifcph", 1, "hll"))
 """Solvers that were calibrated, the default and the paper's: scheme, order and flux onto a dry bed."""
 
 
+def is_alike(point: Point, solvers: Collection[tuple[str, int, str]]) -> bool:
+    """Return whether a column lies in RANGE and is solved by one of some solvers."""
+    inside = all(low <= getattr(point, key) <= high for key, (low, high) in RANGE.items())
+    solver = (point.scheme, point.order, point.front_flux) in solvers and not choice.of(point).general
+    return inside and solver and point.scene == "cylinder"
+
+
 def is_calibrated(point: Point) -> bool:
     """Return whether a run is like those that were calibrated; if not, its three grids may widen its bands."""
-    inside = all(low <= getattr(point, key) <= high for key, (low, high) in RANGE.items())
-    solver = (point.scheme, point.order, point.front_flux) in SOLVERS and not choice.of(point).general
-    return inside and solver and point.scene == "cylinder" and NODES[0] <= point.cells <= FINEST[point.order]
+    return is_alike(point, SOLVERS) and NODES[0] <= point.cells <= FINEST[point.order]
 
 
 def front(point: Point, label: str, value: float, length: float) -> float:

@@ -20,6 +20,7 @@ UNUSUAL = {
     "front_flux": "{} flux at fronts",
     "wave_speeds": "{} wave speeds",
     "order": "order {}",
+    "grid": "{} grid",
     "cfl": "CFL {:g}",
     "treatment": "{} where hyperbolicity is lost",
     "as_printed": "{} as printed",

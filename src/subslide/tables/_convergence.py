@@ -32,6 +32,11 @@ order at what comes of one. Measured at second order (a_H 1 and 10; r 0, 0.4 and
 the band holds the limit from 6400 cells in 94 %; Roache's index with an order up to that of the scheme did in 46 %."""
 
 CONVERGING, NOT_CONVERGED, NO_LIMIT = "converging", "not converged", "no limit"
+ONE_GRID = "one grid"
+"""Word on a value whose band follows from its own grid alone."""
+
+UNORDERED = (NOT_CONVERGED, NO_LIMIT)
+"""Words on values whose three grids give no order."""
 
 
 class Estimate(NamedTuple):

@@ -24,15 +24,18 @@ class Problem(NamedTuple):
 
 
 def method(point: Point) -> tuple:
-    """Return the values of METHOD of a point, with the model that is solved."""
-    return tuple(choice.of(point).model if key == "model" else getattr(point, key) for key in METHOD)
+    """Return the values of METHOD of a point, with the model and the grid that are solved."""
+    chosen = choice.of(point)
+    return tuple(getattr(chosen if key in ("model", "grid") else point, key) for key in METHOD)
 
 
 DEFAULT = method(Point())
 """Default numerics, which solve a round column on its radius."""
 PAPER = method(from_dict({**schema.properties()["numerics"]["presets"]["paper"], "model": "plane"}))
 """The source paper's method, in the plane as the paper has it."""
-NAMES = {DEFAULT: "default", PAPER: "paper"}
+FITTED = method(Point(grid="fitted"))
+"""Default numerics on a fitted grid."""
+NAMES = {DEFAULT: "default", PAPER: "paper", FITTED: "fitted"}
 PLANES = ("quarter", "plane")
 
 

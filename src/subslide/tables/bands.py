@@ -1,10 +1,10 @@
 """Bands of a study: what is measured on each of a run's three grids, and the rows that compare them.
 
-A run's companions have half and a quarter of its cells, and are otherwise the same.
+A run's companions have half and a quarter of its cells, and are otherwise the same; a run on a fitted grid has none.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -12,11 +12,13 @@ import numpy as np
 from subslide.keys.schema import ConfigError
 from subslide.naming import FINISHED, FRONT_LABELS
 from subslide.points import Point
+from subslide.study import choice
 from subslide.study.config import COARSENING, Study
 from subslide.tables import _calibration as calibration
 from subslide.tables import _convergence as convergence
+from subslide.tables import _fitted_bands as fitted
 from subslide.tables import _gauge as gauge
-from subslide.tables._convergence import FORMAL_ORDER
+from subslide.tables._convergence import FORMAL_ORDER, Estimate
 
 if TYPE_CHECKING:
     from subslide.results import Companion, Results, StudyRun
@@ -27,21 +29,32 @@ COLUMNS = {
     "id": ("", "name of the run"),
     "quantity": ("", "what is compared, see above"),
     "time": ("s", "elapsed time since release; empty for a quantity of the run as a whole"),
-    "value": ("m", "value of the run itself"),
-    "value_2": ("m", "value of its companion with cells/2"),
-    "value_4": ("m", "value of its companion with cells/4"),
+    "value": ("m", "value of the run itself; a time in s"),
+    "value_2": ("m", "value of its companion with cells/2; empty on a fitted grid"),
+    "value_4": ("m", "value of its companion with cells/4; empty on a fitted grid"),
     "order": ("", "observed order of convergence p; empty where it cannot be told"),
     "limit": ("m", "Richardson's estimate of the value on ever finer grids; empty unless converging"),
-    "band": ("m", "half-width of the band of discretisation error about `value`; empty without a limit"),
+    "band": (
+        "m",
+        "half-width of the band of discretisation error about `value`, of a time in s; empty without a limit",
+    ),
     "convergence": (
         "",
-        f"`{convergence.CONVERGING}`, `{convergence.NOT_CONVERGED}` or `{convergence.NO_LIMIT}`: what three grids say",
+        f"`{convergence.CONVERGING}`, `{convergence.NOT_CONVERGED}` or `{convergence.NO_LIMIT}`: what three grids say;"
+        f" `{convergence.ONE_GRID}` on a fitted grid",
     ),
     "calibrated": ("", "whether the run is like those at which bands were calibrated"),
 }
 WORDS = ("id", "quantity", "convergence")
 WAVES = ("max_abs_eta", "max_abs_eta_outside")
-ONCE = (*(f"L_f_{label}" for label in FRONT_LABELS), *(f"{name}_peak" for name in (*WAVES, "eta_gauge")))
+ARRESTS = tuple(f"time_of_arrest_{label}" for label in FRONT_LABELS)
+"""Times, which have bands on fitted grids alone."""
+
+ONCE = (
+    *(f"L_f_{label}" for label in FRONT_LABELS),
+    *(f"{name}_peak" for name in (*WAVES, "eta_gauge")),
+    *ARRESTS,
+)
 """Quantities of a run as a whole; the others are taken at the times of its snapshots."""
 
 LIMITLESS = tuple(f"{name}_peak" for name in WAVES)
@@ -52,14 +65,19 @@ QUANTITIES = {
     "max_abs_eta_peak": "largest displacement of the water surface over all time",
     "max_abs_eta_outside_peak": "the same beyond R",
     "eta_gauge_peak": gauge.MEANING,
+    **{
+        name: f"time of arrest (s) of the {label[:-2]} % front, on a fitted grid alone"
+        for name, label in zip(ARRESTS, FRONT_LABELS, strict=True)
+    },
     **{f"x_front_{t}": f"front at the times of the snapshots ({t[:-2]} % front)" for t in FRONT_LABELS},
     "max_abs_eta": "largest displacement of the water surface at the times of the snapshots",
     "max_abs_eta_outside": "the same beyond R",
 }
 SUMMARY = ("limit", "band", "convergence")
-"""Columns that the table of runs repeats for each quantity of a run as a whole."""
+SUMMARIES = {name: ("band",) if name in ARRESTS else SUMMARY for name in ONCE}
+"""Columns that the table of runs repeats, by quantity of a run as a whole."""
 
-MEASURED = ("time", "x_front", "L_f", *WAVES, "eta_gauge", "snapshot_time", "status")
+MEASURED = ("time", "x_front", "L_f", "time_of_arrest", *WAVES, "eta_gauge", "snapshot_time", "status")
 """Variables of records that are compared."""
 
 
@@ -85,6 +103,10 @@ that there is no limit to state, or one of the three runs failed, and there is n
 round-off the limit is f1 and no order is given. `{convergence.NO_LIMIT}`: finer grids give ever larger values, so that
 no number stands for the answer. Times are those of the run's `snapshot_times` after the start.
 
+A run on a fitted grid has no companions (`{convergence.ONE_GRID}`), no limit and no order: its band is a share of the
+value, read off at columns too, which depends on cells and on r/a_H; it is at least {fitted.OUTSIDE:g} times as wide
+where the run is not `calibrated`.
+
 Quantities:
 
 {quantities}"""
@@ -97,9 +119,9 @@ def needs(study: Study) -> str:
 
 def table(results: "Results") -> list[dict]:
     """Return the rows, by column, in the order of the runs; ConfigError if the study has no bands."""
+    if not results.has_bands:
+        raise ConfigError(f"{results.folder} has no bands; allowed: a study with bands: true")
     companions = {(one.of, one.role): one for one in results.companions}
-    if not companions:
-        raise ConfigError(f"{results.folder} has no companions on coarser grids; allowed: bands: true")
     known: dict[str, StudyRun | Companion] = {
         **{run.id: run for run in results.runs_of_study},
         **{one.id: one for one in results.companions},
@@ -108,7 +130,8 @@ def table(results: "Results") -> list[dict]:
     measured = {one.id: measure(one.point, record) for one, record in results.each(*MEASURED, among=by_batch)}
     compared: list[dict] = []
     for run in results.runs_of_study:
-        names = (run.id, *(companions[run.id, role].id for role in COARSENING))
+        roles = () if choice.is_fitted(run.point) else COARSENING
+        names = (run.id, *(companions[run.id, role].id for role in roles))
         compared += rows(run.point, *(measured[name] for name in names))
     return compared
 
@@ -116,18 +139,22 @@ def table(results: "Results") -> list[dict]:
 def summaries(results: "Results") -> dict[str, dict[str, str]]:
     """Return the columns, as text, that the table of runs has for bands, by id of the run; none without bands."""
     columns: dict[str, dict[str, str]] = {}
-    for row in results.lines("bands") if results.companions else ():
+    for row in results.lines("bands") if results.has_bands else ():
         if row["quantity"] in ONCE:
-            parts = {f"{row['quantity']}_{part}": row[part] for part in SUMMARY}
+            parts = {f"{row['quantity']}_{part}": row[part] for part in SUMMARIES[row["quantity"]]}
             columns.setdefault(row["id"], {}).update(parts)
     return columns
 
 
 class Measured(NamedTuple):
-    """Whether a run ended well, and its values (m) by quantity and time (s; None for the run as a whole)."""
+    """Whether a run ended well, and its values (m, s) by quantity and time (s; None for the run as a whole)."""
 
     finished: bool
     values: dict[tuple[str, float | None], float]
+
+    def length(self, quantity: str) -> float:
+        """Return the last place (m) of the front that a quantity belongs to, by the threshold that ends its name."""
+        return self.values[f"L_f_{quantity.rpartition('_')[2]}", None]
 
 
 def measure(point: Point, record: dict) -> Measured:
@@ -150,6 +177,7 @@ def measure(point: Point, record: dict) -> Measured:
     }
     for name in WAVES:
         values[f"{name}_peak", None] = float(np.nanmax(series[name], initial=-math.inf))
+    values.update(((name, None), float(record["time_of_arrest"][n])) for n, name in enumerate(ARRESTS))
     values["eta_gauge_peak", None] = gauge.peak(point, record["time"], record["eta_gauge"])[0]
     instants = [time for time in record["snapshot_time"].tolist() if time > 0 and time in point.profile_times]
     for name, entries in series.items():
@@ -170,21 +198,35 @@ def rows(point: Point, *grids: Measured) -> Iterator[dict]:
     point
         The run's.
     grids
-        What was measured of it, and of its companions with cells/2 and cells/4.
+        What was measured of it and, but on a fitted grid, of its companions with cells/2 and cells/4.
     """
     fine = grids[0]
-    alike = calibration.is_calibrated(point)
+    one_grid = choice.is_fitted(point)
+    alike = (fitted if one_grid else calibration).is_calibrated(point)
     for (quantity, time), value in fine.values.items():
-        if fine.finished and math.isnan(value):
+        if (fine.finished and math.isnan(value)) or (quantity in ARRESTS and not one_grid):
             continue
-        f1, f2, f3 = (grid.values.get((quantity, time), math.nan) for grid in grids)
+        compared = [grid.values.get((quantity, time), math.nan) for grid in grids]
         estimate = convergence.LIMITLESS if quantity in LIMITLESS else convergence.UNKNOWN
         if all(grid.finished for grid in grids) and quantity not in LIMITLESS:
-            scale = point.level if "eta" in quantity else 0.0
-            estimate = convergence.estimate(f1, f2, f3, FORMAL_ORDER, scale=scale, dtype=point.dtype)
-            band = _band(point, quantity, (f1, f2, f3), fine)
-            estimate = estimate._replace(band=band if alike else max(band, estimate.band))
-        yield dict(zip(COLUMNS, (point.id, quantity, time, f1, f2, f3, *estimate, alike), strict=True))
+            estimate = (_of_one if one_grid else _of_three)(point, quantity, compared, fine)
+        values = (*compared, math.nan, math.nan)[: 1 + len(COARSENING)]
+        yield dict(zip(COLUMNS, (point.id, quantity, time, *values, *estimate, alike), strict=True))
+
+
+def _of_one(point: Point, quantity: str, values: Sequence[float], fine: Measured) -> Estimate:
+    """Return what a fitted grid says of a quantity."""
+    band = fitted.half_width(point, quantity, values[0], fine.length(quantity))
+    return Estimate(math.nan, math.nan, band, convergence.ONE_GRID)
+
+
+def _of_three(point: Point, quantity: str, values: Sequence[float], fine: Measured) -> Estimate:
+    """Return what three grids say of a quantity."""
+    f1, f2, f3 = values
+    scale = point.level if "eta" in quantity else 0.0
+    estimate = convergence.estimate(f1, f2, f3, FORMAL_ORDER, scale=scale, dtype=point.dtype)
+    band = _band(point, quantity, (f1, f2, f3), fine)
+    return estimate._replace(band=band if calibration.is_calibrated(point) else max(band, estimate.band))
 
 
 def _band(point: Point, quantity: str, values: tuple[float, float, float], fine: Measured) -> float:
@@ -194,4 +236,4 @@ def _band(point: Point, quantity: str, values: tuple[float, float, float], fine:
     if "eta" in quantity:
         return calibration.wave(point, *values)
     label = quantity.rpartition("_")[2]
-    return calibration.front(point, label, values[0], fine.values[f"L_f_{label}", None])
+    return calibration.front(point, label, values[0], fine.length(quantity))

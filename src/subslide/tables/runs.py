@@ -164,14 +164,17 @@ COLUMNS_OF_RUN = {
 COLUMNS = {
     **{name: (column.unit, column.meaning) for name, column in COLUMNS_OF_RUN.items()},
     **{
-        f"{name}_{part}": (bands.COLUMNS[part][0], f"`{part}` of {name} in bands.csv; empty without bands")
-        for name in bands.ONCE
-        for part in bands.SUMMARY
+        f"{name}_{part}": (
+            "s" if name in bands.ARRESTS else bands.COLUMNS[part][0],
+            f"`{part}` of {name} in bands.csv; empty without bands",
+        )
+        for name, parts in bands.SUMMARIES.items()
+        for part in parts
     },
 }
 WORDS = (
     *("id", "numerics", "resolved_model", "resolved_grid", "status", "status_detail", "moved"),
-    *(f"{name}_convergence" for name in bands.ONCE),
+    *(f"{name}_convergence" for name, parts in bands.SUMMARIES.items() if "convergence" in parts),
 )
 MEASURED = (
     *(

@@ -33,11 +33,15 @@ COLUMNS = {
     "cells": ("", "cell size as a count; see config/README.md"),
     "method": (
         "",
-        "`default` (on a radius) or `paper` (in the plane) where the numerics are these; else empty",
+        "`default` (on a radius), `paper` (in the plane) or `fitted` (the default on a fitted grid) where the numerics"
+        " are these; else empty",
     ),
     "status": ("", "how the run ended"),
     "seconds": ("s", "wall time of the time loop alone, one timing"),
-    "error": ("", "relative error; empty where the run failed, or the truth is not known"),
+    "error": (
+        "",
+        "relative error; empty where the run failed, is of a fitted grid and has no waves, or the truth is not known",
+    ),
     "sure_error": (
         "",
         "largest error on this and every finer grid of the same numerics, and no less than `uncertainty`: a grid that"
