@@ -241,8 +241,8 @@ Half-width of waves, the largest of:
 
 {fitted_method}
 
-Shares (per cent) in deep water, the 98 % quantiles of what the 16 corners of the range and 300 columns drawn from it err by
-(the default solver; answers of 12,800 uniform cells); between these grids logarithms are linear:
+Shares (per cent) in deep water, the 98 % quantiles of what the 16 corners of the range and 300 columns drawn from it
+err by (the default solver; answers of 12,800 uniform cells); between these grids logarithms are linear:
 
 | value | threshold | {fitted_heads} |
 {fitted_rule}
