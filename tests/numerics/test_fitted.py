@@ -62,7 +62,7 @@ def gain(run):
 def ends_well(run):
     """Nothing; a run ended in time or at rest, kept its volumes, its order of cells and its energy.
 
-    Water far away is in cells of up to thousands of R, whose depth a step changes by less than a number can hold.
+    Round-off is that of all water on the grid, which may be a thousand times what is counted, that of the paper's box.
     """
     single = run.point.dtype == "float32"
     assert run.status in ("ok", "not_at_rest"), run.status_detail
@@ -70,7 +70,9 @@ def ends_well(run):
     assert run.h2.min() >= 0
     assert drift(run.sediment_volume) < (3e-5 if single else 1e-13)
     if run.model != "one-layer":
-        assert drift(run.water_volume) < (1e-3 if single else 5e-12)
+        larger = run.width[0].sum() / run.box_half_width
+        whole = max(1.0, larger ** (1 if run.model == "line" else 2))
+        assert drift(run.water_volume) < (1e-5 if single else 1e-13) * whole
     assert (run.width > 0).all()
     np.testing.assert_allclose(run.width.sum(axis=1), run.width[0].sum(), rtol=1e-13)
     turn = 2.0 if run.model == "line" else 2 * np.pi * run.x
@@ -128,7 +130,7 @@ def test_films_and_deep_water_end_well(a_H):
 def test_grains_without_friction_run_on_in_whole_cells():
     run = fitted(delta=0.0, t_end=1.0)
     ends_well(run)
-    assert run.L_f[0] > 8 * run.point.radius
+    assert run.L_f[0] > 7 * run.point.radius
 
 
 @pytest.mark.parametrize("radius", [1e-4, 700.0, 1e6])
@@ -202,7 +204,7 @@ def test_no_bit_knows_how_launches_were_cut_nor_of_threads(monkeypatch, values):
         ({"model": "quarter"}, "the model is of the plane"),
         ({"model": "plane"}, "the model is of the plane"),
         ({"scene": "pile"}, "the scene is not one column about the axis"),
-        ({"scene": "dam_break"}, "the scene is not one column about the axis"),
+        ({"scene": "ellipse"}, "the scene is not one column about the axis"),
         ({"scene": "columns", "scene_options": {"count": 2}}, "the scene is not one column about the axis"),
         ({"scene": "columns", "scene_options": {"x": 1.0}}, "the scene is not one column about the axis"),
     ],
