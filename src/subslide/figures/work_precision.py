@@ -33,6 +33,8 @@ STRONG = {
     "fitted": {"color": "#0072b2", "label": "the same on a fitted grid"},
     "paper": {"color": "#c8102e", "label": "the paper's method in the plane"},
 }
+COUNTED = {"default": (25, 100, 400, 1600, 6400, 25600), "fitted": (16, 24, 48, 110, 220)}
+"""Cells that are written beside symbols; of other methods all are."""
 TICKS = (0.01, 0.05, 0.1, 0.5, 1, 2, 5, 10, 20, 50, 100)
 MOST_COLUMNS = 3
 
@@ -116,7 +118,7 @@ def _panel(ax: Axes, rows: pd.DataFrame, looks: dict[str, _style.Look]) -> None:
 def _counts(ax: Axes, rows: pd.DataFrame, color: str, name: str) -> None:
     """Write the cells of some runs of a method beside their symbols."""
     for _, row in rows.iterrows():
-        if name != "default" or row["cells"] in (25, 100, 400, 1600, 6400, 25600):
+        if row["cells"] in COUNTED.get(name, [row["cells"]]):
             ax.annotate(
                 f"{row['cells']:.0f}",
                 (row["seconds"], 100 * row["sure_error"]),
