@@ -69,12 +69,13 @@ def main() -> int:
         return work()
     if arguments.old is None:
         parser.error("the folder of another checkout is needed")
+    from subslide.keys.names import LATER
     from subslide.points import to_dict
     from subslide.study import choice
     from subslide.study.config import read_study
 
     points = [
-        to_dict(point)
+        {key: value for key, value in to_dict(point).items() if LATER.get(key) != value}
         for point in read_study(arguments.config).points
         if not arguments.model or choice.of(point).model in arguments.model
     ]

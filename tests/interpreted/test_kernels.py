@@ -113,6 +113,24 @@ def test_an_open_edge_of_the_plane_keeps_the_grains_and_most_of_the_water(model)
     assert 1e-13 < change(run.water_volume) < 0.05
 
 
+@pytest.mark.parametrize("general", [False, True], ids=["lean", "general"])
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize(
+    "values",
+    [{}, {"model": "one-layer", "r": 0}, {"scene": "slab"}, {"a_H": 0}, {"dtype": "float32"}],
+    ids=str,
+)
+def test_cells_that_go_with_the_grains_stay_within_their_arrays(values, order, general):
+    values = {"grid": "fitted", "cells": 16, **values, "order": order, **(GENERAL if general else {})}
+    run = run_of(**values)
+    eps = np.finfo(run.point.dtype).eps
+    assert run.status == "ok"
+    assert (run.h2 >= 0).all()
+    assert (run.width > 0).all()
+    for volume in (run.sediment_volume, run.water_volume)[: 1 if run.model == "one-layer" else 2]:
+        assert change(volume[np.isfinite(volume)]) < 1000 * eps
+
+
 def test_a_periodic_line_has_no_end():
     run = run_of(model="line", scene="shear", boundary="periodic", t_end=0.03)
     assert run.status == "ok"

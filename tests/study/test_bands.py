@@ -227,15 +227,15 @@ def test_the_band_on_a_fitted_grid_is_a_share_that_grows_where_dense_water_is_sh
     rows = finish(of_fitted(first_order), **FITTED, a_H=1, r=[0, 0.4]).bands.set_index(["quantity", "id"])
     share = rows["band"] / rows["value"]
     alone, dense = share["L_f_3pc"]
-    assert alone == pytest.approx(fitted_bands.SHARES["arrived"][1][2])
-    assert dense == pytest.approx(alone * (1 + fitted_bands.SHALLOW * 0.4))
-    assert share["time_of_arrest_1pc"].iloc[0] == pytest.approx(fitted_bands.SHARES["arrest"][0][2])
+    assert alone == pytest.approx(2 * fitted_bands.SHARES["arrived"][1][2])  # a_H = 1
+    assert dense == pytest.approx(alone / 2 * (2 + fitted_bands.DENSE * 0.4))
+    assert share["time_of_arrest_1pc"].iloc[0] == pytest.approx(2 * fitted_bands.SHARES["arrest"][0][2])
 
 
 def test_bands_on_fitted_grids_between_those_that_were_calibrated_lie_between_theirs():
     def band(cells, value=1.0, quantity="x_front_1pc"):
         point = config.make_point({"grid": "fitted", "cells": cells, "r": 0})
-        return fitted_bands.half_width(point, quantity, value, 1.0)
+        return fitted_bands.half_width(point, quantity, value, 1.0) / fitted_bands.factor(point)
 
     assert band(34) > band(40) > band(48) > band(50)
     middle = np.log(40 / 34) / np.log(48 / 34)
@@ -262,7 +262,7 @@ def test_bands_of_fitted_runs_unlike_those_that_were_calibrated_are_wider(unlike
     point = config.make_point({**FITTED, **unlike})
     assert not fitted_bands.is_calibrated(point)
     shares = fitted_bands.SHARES["arrived"][0]
-    share = {48: shares[2], 220: shares[-1], 12: shares[0]}[point.cells] * (1 + 4 * 0.4 / point.a_H)
+    share = {48: shares[2], 220: shares[-1], 12: shares[0]}[point.cells] * fitted_bands.factor(point)
     assert fitted_bands.half_width(point, "L_f_1pc", 1.0, 1.0) == pytest.approx(wider * share)
 
 

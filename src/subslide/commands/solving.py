@@ -107,7 +107,7 @@ def check(config: tuple[str, ...]) -> None:
 
 
 @cli.command()
-@click.argument("kernel", nargs=-1, required=True, metavar="MODEL:DTYPE[:general]...")
+@click.argument("kernel", nargs=-1, required=True, metavar="MODEL:DTYPE[:fitted][:general]...")
 def warm(kernel: tuple[str, ...]) -> None:
     """Compile the kernels of some models into the cache, so that jobs started together do not each compile."""
     from subslide import jobs

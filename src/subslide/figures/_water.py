@@ -30,10 +30,14 @@ def wet(runs: pd.DataFrame) -> tuple[pd.DataFrame, list[str]]:
     alone = runs["resolved_model"].astype(str) == "one-layer"
     fitted = (runs["resolved_grid"] == "fitted") & ~alone
     kinds = {
-        "of the grains alone (one layer) have no water surface": alone.sum(),
-        "on a grid fitted to the grains do not resolve the water surface": fitted.sum(),
+        "grains alone (one layer)": alone.sum(),
+        "on a grid fitted to the grains": fitted.sum(),
     }
-    notes = [f"{count} runs {why} and are not shown." for why, count in kinds.items() if count]
+    notes = [
+        f"Without a water surface: {count} of {len(runs)} runs, {why}."
+        for why, count in kinds.items()
+        if count
+    ]
     return runs[~alone & ~fitted], notes
 
 

@@ -19,7 +19,7 @@ from subslide.kernels.front import front_position
 from subslide.kernels.hyperbolicity import STOP, judged
 from subslide.kernels.jit import inlined, launch
 from subslide.kernels.measures import RowSpan
-from subslide.kernels.motion import arrive, relative_pace, sweep
+from subslide.kernels.motion import arrive, place, relative_pace, sweep
 from subslide.kernels.reduce import extremes
 from subslide.kernels.row import edges, film_edges, grain_edges
 
@@ -101,6 +101,7 @@ def advance(s, c, left, right, fx, terms, mesh, motion, fan, watch, thresholds, 
     clock, counters = track.clock, track.counters
     n = counters[k.SAMPLES]
     cells = c.h1.shape[0]
+    place(mesh, motion)
     moves = True
     code = k.RUNNING
     while code == k.RUNNING:

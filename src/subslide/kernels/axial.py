@@ -11,7 +11,7 @@ from subslide.kernels.friction import COULOMB
 from subslide.kernels.friction.coulomb import head
 from subslide.kernels.hyperbolicity import RUB, rub
 from subslide.kernels.jit import inlined, part
-from subslide.kernels.motion import gap_at, grown, over_width
+from subslide.kernels.motion import gained, gap_at, grown, normal, over_width
 from subslide.kernels.positivity import limit, reference, share
 from subslide.kernels.printed import braking
 from subslide.kernels.slowing import first_reach, law_left, left_of
@@ -130,9 +130,9 @@ def advance_layer(s, h, u, flux, keep, inner, mesh, motion, dt, k):
     before = mesh.area[k] * dt * mesh.inverse_volume[k] * limit(f[k], keep[i - 1], keep[i])
     after = mesh.area[k + 1] * dt * mesh.inverse_volume[k] * limit(f[k + 1], keep[i], keep[i + 1])
     push = over_width(motion, k, dt, s.dx) * (type(dt)(0.5) * (p[k] + p[k + 1]) + inner[i])
-    left = grown(motion, k, h[i])
-    depth = left + (before * f[k] - after * f[k + 1])
-    return depth, left * u[i] + (before * m[k] - after * m[k + 1]) - push
+    depth = h[i] + gained(motion, k, h[i], before * f[k] - after * f[k + 1])
+    q = h[i] * u[i]
+    return normal(motion, depth), q + gained(motion, k, q, before * m[k] - after * m[k + 1]) - push
 
 
 @inlined

@@ -16,6 +16,12 @@ Nothing is allocated inside kernels (numba refuses it without its run-time), so 
 counting of references: at 200 cells that was a tenth of a step.
 """
 
+
+def plain(function):
+    """Return a kernel function as Python: compiling one for a few calls takes as long as a study's plan."""
+    return getattr(function, "py_func", function)
+
+
 WIDEST = (1 << 30) - 1
 """Cells of a row, at most."""
 

@@ -3,6 +3,8 @@
 Functions of `Motion` take None too, for cells of one size at rest: then they are compiled to nothing.
 """
 
+import numpy as np
+
 from subslide.kernels.arrays import GHOSTS
 from subslide.kernels.jit import inlined, part
 from subslide.kernels.waves import grain_speeds
@@ -70,6 +72,26 @@ def grown(motion, k, h):
     if motion is None:
         return h
     return h + motion.growth[k] * h
+
+
+@inlined
+def gained(motion, k, amount, change):
+    """Return what cell k gains per volume in a step: a change, and by its growth a part of the amount that it has.
+
+    Where water is still the two cancel. Added first, they leave its depth alone; one by one each rounds it.
+    """
+    if motion is None:
+        return change
+    return motion.growth[k] * amount + change
+
+
+@inlined
+def normal(motion, depth):
+    """Return a depth, of cells that move 0 where it is subnormal: there rounding can take more than is left."""
+    if motion is None:
+        return depth
+    real = type(depth)
+    return real(0) if abs(depth) < np.finfo(real).tiny else depth
 
 
 @inlined

@@ -12,17 +12,18 @@ import math
 
 import numpy as np
 
+from subslide.kernels import motion
 from subslide.kernels.arrays import Fan
-from subslide.kernels.motion import ends
+from subslide.kernels.jit import plain
 from subslide.points import Point
 
-PARTS = (10, 21, 17)
+PARTS = (11, 21, 16)
 """Of 48 cells: those behind the fan, in it and beyond it."""
 
 START = 2.0
 """Width of the part of the fan that is in the column at the start, times the number of cells to 3/2: 0.006 with 48."""
 
-FRONT = 1.5
+FRONT = 1.6
 """Speed of the right end of the fan at the start, over that of waves into the column: the 1 % front has 1.7."""
 
 SHARE = 0.65
@@ -39,6 +40,10 @@ FAR = 8.0
 
 BEYOND = 1.3
 """Mean size of the cells beyond the fan, over that of its last one, at least."""
+
+
+ends = plain(motion.ends)
+"""Where the ends of the fan are at a time, as Python."""
 
 
 def parts(cells: int) -> tuple[int, int, int]:

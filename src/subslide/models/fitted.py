@@ -19,7 +19,6 @@ from subslide.kernels.arrays import (
     Watch,
     allocate,
 )
-from subslide.kernels.motion import ends, place
 from subslide.models import fan as layout
 from subslide.models.model import Model
 from subslide.points import PAPER_BOX, Point
@@ -148,7 +147,7 @@ def mesh_of(point: Point, radial: bool) -> tuple[Mesh, Motion, Fan]:
     far = layout.far_end(point, fan)
     base, near, ahead = coefficients = layout.coefficients(point.cells, far)
     edges = layout.first_edges(point, fan, coefficients)
-    left, right = ends(fan, point.latest_end / point.time_scale)
+    left, right = layout.ends(fan, point.latest_end / point.time_scale)
     cells, padded = point.cells, point.cells + 2 * GHOSTS
     turn = 2 * np.pi if radial else 2.0
     power = 2 if radial else 1
@@ -180,5 +179,4 @@ def mesh_of(point: Point, radial: bool) -> tuple[Mesh, Motion, Fan]:
         total=total,
         size=turn * PAPER_BOX**power / power,
     )
-    place(mesh, motion)
     return mesh, motion, fan

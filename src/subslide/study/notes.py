@@ -3,6 +3,7 @@
 Beside `cautions`, whose regions the stability atlas found unsafe. Imports no kernels.
 """
 
+import collections
 from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
@@ -18,7 +19,7 @@ VOUCHED = {"a_H": (0.5, 10), "a_2": (0.3, 1.5), "r": (0, 0.8), "delta": (20, 40)
 COARSEST = 0.2
 """Cell size over R of a column above which L_f errs by up to 16 to 29 % (below it by up to 13 %; 25 columns)."""
 FEWEST_FITTED = 24
-"""Cells of a fitted grid below which L_f errs by more than 1.5 % (316 columns: 24 cells 1.5 %, 16 cells 4.6 %)."""
+"""Cells of a fitted grid below which L_f errs by more than 1.6 % (316 columns: 24 cells 1.6 %, 16 cells 5.2 %)."""
 COLUMNS = ("cylinder", "ellipse", "columns")
 """Scenes of columns with upright sides."""
 
@@ -61,7 +62,7 @@ NOTES = (
         lambda point: choice.is_fitted(point) and point.cells < FEWEST_FITTED,
         f"with fewer than {FEWEST_FITTED} cells the length of the deposit errs by up to several percent",
         "cells: 48",
-        {"grid": "fitted", "cells": 12, "a_H": 0.5, "a_2": 1.5, "r": 0.8, "delta": 20},
+        {"grid": "fitted", "cells": 10, "a_H": 0.5, "a_2": 1.5, "r": 0.8, "delta": 20},
         {"grid": "fitted", "cells": 48},
         "",
     ),
@@ -160,6 +161,11 @@ def notes(points: Iterable[Point]) -> list[str]:
             lines.append(
                 f"caution, without effect ({_who(len(deaf), points)}): {key}, such as {value}: {reason}."
             )
+    chosen = collections.Counter(
+        (choice.of(point).grid, choice.of(point).grid_reason) for point in points if point.grid == "auto"
+    )
+    for (grid, reason), count in chosen.items():
+        lines.append(f"note, grid ({_who(count, points)}): {grid} ({reason}).")
     return lines
 
 

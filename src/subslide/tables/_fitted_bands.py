@@ -2,7 +2,7 @@
 
 Errors change sign from one fitted grid to the next, so that two grids say nothing of a third; but on one grid they are
 about the same share of a front's place whatever the column, and larger where dense water is shallow. So there are no
-companions: the band is a share read off at columns, times 1 + 4 r/a_H.
+companions: the band is a share read off at columns, times 1 + (1 + 2 r)/a_H.
 """
 
 import numpy as np
@@ -17,26 +17,26 @@ them the nearest counts."""
 
 SHARES: dict[str, tuple[tuple[float, ...], ...]] = {
     "moving": (
-        (0.0091, 0.0048, 0.0026, 0.0025, 0.0016),
-        (0.0041, 0.0025, 0.0016, 0.0013, 0.0007),
-        (0.0029, 0.0022, 0.0018, 0.0014, 0.0008),
+        (0.0087, 0.0043, 0.0024, 0.0019, 0.0012),
+        (0.0035, 0.0018, 0.0014, 0.0012, 0.0006),
+        (0.0029, 0.0022, 0.0018, 0.0014, 0.0007),
     ),
     "arrived": (
-        (0.0061, 0.0029, 0.0025, 0.0021, 0.0013),
-        (0.0060, 0.0055, 0.0037, 0.0027, 0.0018),
-        (0.0067, 0.0046, 0.0029, 0.0025, 0.0017),
+        (0.0071, 0.0029, 0.0023, 0.0021, 0.0013),
+        (0.0058, 0.0058, 0.0038, 0.0027, 0.0016),
+        (0.0064, 0.0045, 0.0029, 0.0026, 0.0018),
     ),
     "arrest": (
-        (0.0761, 0.0231, 0.0141, 0.0083, 0.0049),
-        (0.0509, 0.0309, 0.0264, 0.0254, 0.0171),
-        (0.1074, 0.0936, 0.0464, 0.0234, 0.0193),
+        (0.0206, 0.0159, 0.0083, 0.0066, 0.0036),
+        (0.0400, 0.0964, 0.0300, 0.0253, 0.0156),
+        (0.1071, 0.1230, 0.0325, 0.0349, 0.0243),
     ),
 }
 """Half-width over the value, of fronts on their way and at rest, and of times of arrest: a row for each threshold of
-`FRONT_LABELS`, a number for each node. At r = 0; `factor` has the rest."""
+`FRONT_LABELS`, a number for each node. In deep water; `factor` has the rest."""
 
-SHALLOW = 4.0
-"""Times r/a_H that bands grow by."""
+DENSE = 2.0
+"""Bands grow by (1 + DENSE r) / a_H."""
 
 OUTSIDE = 4.0
 """Times that bands are as wide where nothing was calibrated; again so many at first order."""
@@ -51,8 +51,8 @@ def is_calibrated(point: Point) -> bool:
 
 
 def factor(point: Point) -> float:
-    """Return by how much bands are wider than at r = 0."""
-    return 1 + SHALLOW * point.r / max(point.a_H, uniform.RANGE["a_H"][0])
+    """Return by how much bands are wider than in deep water."""
+    return 1 + (1 + DENSE * point.r) / max(point.a_H, uniform.RANGE["a_H"][0])
 
 
 def widening(point: Point, moving: bool) -> float:
