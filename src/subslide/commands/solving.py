@@ -98,7 +98,8 @@ def check(config: tuple[str, ...]) -> None:
 
     for path in config:
         study = read_study(path)
-        more = f" and {len(study.solved) - len(study.runs)} companions for bands" if study.bands else ""
+        companions = len(study.solved) - len(study.runs)
+        more = f" and {companions} companions for bands" if companions else ""
         click.echo(
             f"{path}: study '{study.name}', {len(study.runs)} runs{more}, {len(study.figures)} figures,"
             f" {cost.estimate(study.solved).words()}"
