@@ -47,10 +47,13 @@ ends = plain(motion.ends)
 
 
 def parts(cells: int) -> tuple[int, int, int]:
-    """Return how many of so many cells are behind the fan, in it and beyond it; the column's side is an edge."""
+    """Return how many of so many cells are behind the fan, in it and beyond it; the column's side is an edge.
+
+    With three in the fan, grains nearly without friction gained 1.9 times the energy that the start can release.
+    """
     whole = sum(PARTS)
     left = max(2, round(cells * PARTS[0] / whole))
-    fan = max(3, 3 * round(cells * PARTS[1] / whole / 3))
+    fan = max(6, 3 * round(cells * PARTS[1] / whole / 3))
     return left, fan, cells - left - fan
 
 
