@@ -208,6 +208,7 @@ def test_no_bit_knows_how_launches_were_cut_nor_of_threads(monkeypatch, values):
         ({"boundary": "wall"}, "the boundary is wall, not open"),
         ({"boundary": "paper"}, "the boundary is paper, not open"),
         ({"boundary": "periodic", "model": "line", "scene": "slab"}, "the boundary is periodic, not open"),
+        ({"as_printed": "friction"}, "a formula is taken as printed"),
         ({"model": "quarter"}, "the model is of the plane"),
         ({"model": "plane"}, "the model is of the plane"),
         ({"scene": "pile"}, "the scene is not one column about the axis"),
