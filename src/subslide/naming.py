@@ -95,7 +95,8 @@ SCALARS = {
         "L_f",
         ("run", "front_threshold"),
         "m",
-        "length of the deposit along the positive x axis at the end of the run: x_front there",
+        "length of the deposit along the positive x axis at the end of the run: x_front there; missing where the run"
+        " failed, or no grains lie as deep as the threshold",
     ),
     "time_of_arrest": Name(
         "t_arrest",

@@ -27,7 +27,9 @@ volumes and energy count it less still water, and profiles reach as far as any g
 and so is the wave (`max_abs_eta`, `max_abs_eta_outside`, `eta_gauge`, `eta`), which the coarse cells far away reflect.
 A file whose runs do not all lie on one uniform grid has the dimension `cell` in place of `x`, and each run its own
 positions `x(run, snapshot, cell)` and widths `cell_width(run, snapshot, cell)`, so that a volume on a radius is the sum
-of 2 pi x cell_width h2. `Results.record` gives a fitted run `x(snapshot, cell)` and `cell_width`, a uniform one `x(x)`
+of 2 pi x cell_width h2; of a slab a fitted grid has the right half, so that it is twice the sum of cell_width h2.
+Fronts are sampled at each step, volumes, energy and hyperbolicity at every eighth and at the end, and are missing
+between. `Results.record` gives a fitted run `x(snapshot, cell)` and `cell_width`, a uniform one `x(x)`
 whatever else is in its file; `subslide.results.positions(record, snapshot)` the positions of either.
 
 Each key of a study is a variable too ([config/README.md](../config/README.md)); attributes hold the configuration,

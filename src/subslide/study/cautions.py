@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from subslide import scenes
 from subslide.points import Point
+from subslide.study import choice
 
 
 class Region(NamedTuple):
@@ -46,7 +47,9 @@ LARGEST_CFL = 1.0
 
 def _far(point: Point) -> bool:
     """Return whether grains run out of the largest box, or for ever."""
-    return point.t_end is None and point.friction == "coulomb" and point.friction_number < LEAST_FRICTION
+    slides = point.friction == "coulomb" and point.friction_number < LEAST_FRICTION
+    ends = choice.is_fitted(point) and point.delta > 0  # a fitted grid goes as far as they do
+    return point.t_end is None and slides and not ends
 
 
 def _floating(point: Point) -> bool:

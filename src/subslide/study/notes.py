@@ -43,7 +43,7 @@ NOTES = (
         "what error to expect is known for "
         + ", ".join(f"{key} {low:g} to {high:g}" for key, (low, high) in VOUCHED.items())
         + "; elsewhere it may be larger",
-        "a study with bands: true, which estimates the error of each run from three grids",
+        "a study with bands: true, which estimates the error of each run",
         {"a_2": 0.07, "delta": 40, "cells": 200},
         {"a_2": 0.56},
         "",

@@ -52,7 +52,8 @@ def is_calibrated(point: Point) -> bool:
 
 def factor(point: Point) -> float:
     """Return by how much bands are wider than in deep water."""
-    return 1 + (1 + DENSE * point.r) / max(point.a_H, uniform.RANGE["a_H"][0])
+    depth = max(point.a_H, uniform.RANGE["a_H"][0]) if point.r > 0 else 1.0  # water without weight has no say
+    return 1 + (1 + DENSE * point.r) / depth
 
 
 def widening(point: Point, moving: bool) -> float:

@@ -36,7 +36,7 @@ COLUMNS = {
     "limit": ("m", "Richardson's estimate of the value on ever finer grids; empty unless converging"),
     "band": (
         "m",
-        "half-width of the band of discretisation error about `value`, of a time in s; empty without a limit",
+        "half-width of the band of discretisation error about `value`, of a time in s; empty where none is known",
     ),
     "convergence": (
         "",
