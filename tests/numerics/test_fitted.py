@@ -160,7 +160,7 @@ def test_at_r_0_the_grains_do_not_feel_the_water():
     )
     for run in (alone, deep):
         np.testing.assert_allclose(run.L_f, shallow.L_f, rtol=0.005)
-        np.testing.assert_allclose(run.h2[-1], shallow.h2[-1], atol=0.01 * run.point.column_height)
+        np.testing.assert_allclose(run.h2[-1], shallow.h2[-1], atol=0.02 * run.point.column_height)
 
 
 def test_waves_are_missing_and_not_wrong():

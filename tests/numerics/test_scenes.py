@@ -26,6 +26,7 @@ UNION = 2 * math.pi - (2 * math.acos(0.65) - 0.65 * math.sqrt(4 - 1.3**2))
 # name of the case: (scene, options, other keys, models it allows, volume of grains on a line or in the plane)
 CASES = {
     "cylinder": ("cylinder", {}, {}, "radial quarter plane", math.pi),
+    "slab": ("slab", {}, {}, "line", 2.0),
     "paraboloid": ("paraboloid", {}, {}, "radial quarter plane", math.pi / 2),
     "dam": ("dam_break", {}, WALL, "line", BOX / 2),
     "wet dam": ("dam_break", {"downstream": 0.2}, WALL, "line", 0.6 * BOX),

@@ -109,7 +109,7 @@ def test_faces_without_grains_are_those_of_water_to_the_bit(seed, frictionless):
     source = rng.normal(0, 1, n)
     sides = [[allocate(Side, (n,), np.float64) for _ in range(2)] for _ in range(2)]
     terms = [allocate(CellTerms, (n,), np.float64) for _ in range(2)]
-    faces(s, c, *sides[0], terms[0], source, 0, n - 2, 0.01)
+    faces(s, c, *sides[0], terms[0], source, None, 0, n - 2, 0.01)
     water_faces(s, c, *sides[1], terms[1], source, 0, n - 2, 0.01)
     for both, alone in zip(*sides, strict=True):
         for name in ("eta", "h1", "u1", "h2"):

@@ -36,7 +36,7 @@ CHANGED = {
     "src/subslide/keys/names.py",
     "src/subslide/keys/entries.py",
     "src/subslide/naming.py",
-    "src/subslide/solver/__init__.py",
+    "src/subslide/points.py",
     "src/subslide/solver/run.py",
     "src/subslide/solver/answer.py",
 }
