@@ -183,7 +183,8 @@ def warm(kernels: tuple[str, ...]) -> Iterator[str]:
     from subslide import solver
 
     for kernel in kernels:
-        model, dtype, *marks = (*kernel.split(":"), "float64")[: max(2, kernel.count(":") + 1)]
+        model, *marks = kernel.split(":")
+        dtype = marks.pop(0) if marks else "float64"
         if marks not in ([], ["fitted"], ["general"], ["fitted", "general"]):
             raise ConfigError(f"kernel: {kernel} is not allowed; allowed: MODEL:DTYPE[:fitted][:general]")
         values = {

@@ -37,9 +37,8 @@ def cases(results: "Results") -> dict[str, pd.DataFrame]:
         If there is no such case.
     """
     table, runs = results.errors, results.runs
-    table = table[
-        table["id"].isin(runs["id"][runs["dx"].notna()])
-    ]  # of a fitted grid there is no size of cells
+    sized = runs["id"][runs["dx"].notna()]  # cells of a fitted grid have no one size
+    table = table[table["id"].isin(sized)]
     table = table[table["quantity"].isin(["h2", "eta"]) & table["scene"].isin(list(NAMES))]
     if table.empty:
         raise _style.NoRunsError("a scene with an exact profile")

@@ -45,8 +45,7 @@ def check(point: Point) -> None:
                 f"{key}: {words.show(value)} is not allowed with model: {model} ({reason});"
                 f" allowed: {', '.join(geometries)}"
             )
-    unfit = choice.unfit(point, geometry)
-    if point.grid == "fitted" and unfit:
+    if point.grid == "fitted" and (unfit := choice.unfit(point, geometry)):
         raise ConfigError(f"grid: fitted is not allowed where {unfit}; allowed: uniform, or auto")
     if geometry in PLANE and point.cells > MOST_PLANE_CELLS:
         raise ConfigError(

@@ -104,7 +104,7 @@ round-off the limit is f1 and no order is given. `{convergence.NO_LIMIT}`: finer
 no number stands for the answer. Times are those of the run's `snapshot_times` after the start.
 
 A run on a fitted grid has no companions (`{convergence.ONE_GRID}`), no limit and no order: its band is a share of the
-value, read off at columns too, which depends on cells and on r/a_H; it is at least {fitted.OUTSIDE:g} times as wide
+value, read off at columns too, which depends on cells, a_H and r; it is at least {fitted.OUTSIDE:g} times as wide
 where the run is not `calibrated`.
 
 Quantities:
