@@ -23,6 +23,7 @@ ROOMS = (
     ("kept", ("records",)),
     ("opened", ("results",)),
     ("known", ("exact", "laboratory")),
+    ("learned", ("sensitivity", "emulator")),
     ("judged", ("tables",)),
     ("drawn", ("figures",)),
     ("told", ("pages",)),
@@ -48,6 +49,7 @@ HEAVY = {
     "matplotlib",
     "seaborn",
     "scipy",
+    "sklearn",
     "snakemake",
     "jsonschema",
 }

@@ -1,0 +1,1 @@
+"""What the answers of many runs owe to each parameter: Sobol' indices, main effects, power laws."""
