@@ -54,6 +54,11 @@ class Results:
         """Return whether the study was made with `bands: true`."""
         return self._listed.has_bands
 
+    @property
+    def asked(self) -> dict[str, Any]:
+        """Return the study's configuration by key, as its file states it; empty for one of the version before."""
+        return self._listed.asked
+
     @functools.cached_property
     def _listed(self) -> Listing:
         """Return what points.json states."""

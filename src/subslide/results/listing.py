@@ -38,11 +38,12 @@ class Companion(NamedTuple):
 
 
 class Listing(NamedTuple):
-    """The runs of a study, in the order of the tables, their companions, and whether the study has bands."""
+    """The runs of a study, in the order of the tables, their companions, whether it has bands, and what was asked."""
 
     runs: tuple[StudyRun, ...]
     companions: tuple[Companion, ...]
     has_bands: bool
+    asked: dict[str, Any]
 
 
 def listed(folder: Path) -> Listing:
@@ -78,6 +79,7 @@ def listed(folder: Path) -> Listing:
             Companion(row["id"], row["of"], row["role"], row["point"], row["batch"])
             for row in rows.get("companions", ())
         )
+        asked = dict(index.get("asked", {}))
         if not runs:
             raise ValueError("there are no points")
         _once([run.id for run in runs])
@@ -87,7 +89,7 @@ def listed(folder: Path) -> Listing:
         raise RecordError(f"{path} is damaged or not of this version ({what}); {AGAIN}") from None
     if fault and checksums.beside(path).exists():
         raise RecordError(f"{fault}; {AGAIN}")
-    return Listing(runs, others, "companions" in sections)
+    return Listing(runs, others, "companions" in sections, asked)
 
 
 def verify(path: Path) -> None:

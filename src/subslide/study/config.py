@@ -4,7 +4,8 @@ import contextlib
 import itertools
 import math
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,8 @@ from subslide.study import checking, choice, cost, scene_options, together, whol
 from subslide.study.yaml_files import read_yaml
 
 MOST_POINTS = 200_000
+MOST_KEPT_WHOLE = 2_000
+"""Solved points up to which `keep: auto` keeps all of each run."""
 FEWEST_CELLS = 10
 CASE_KEYS = ("numerics", *RUN_KEYS)
 COARSENING = {"cells/2": 2, "cells/4": 4}
@@ -35,12 +38,15 @@ class Study:
         Label of the numerics, and point, of each run, without repeats, in the order of the tables.
     bands
         Whether each run has bands, for which those on uniform grids have companions on coarser ones.
+    asked
+        Configuration by key, as its file states it, checked.
     """
 
     name: str
     figures: tuple[str, ...]
     runs: tuple[tuple[str, Point], ...]
     bands: bool = False
+    asked: dict[str, Any] = field(default_factory=dict)
 
     @property
     def points(self) -> tuple[Point, ...]:
@@ -57,11 +63,24 @@ class Study:
             for role, ratio in COARSENING.items()
         )
 
-    @property
+    @cached_property
     def solved(self) -> tuple[Point, ...]:
         """Points to solve, without repeats: the runs, then those companions that are not runs as well."""
         companions = (point for *_, point in self.companions)
         return tuple({point.id: point for point in (*self.points, *companions)}.values())
+
+    @property
+    def keep(self) -> str:
+        """What records keep of each run, one of `subslide.keys.kept.WORDS`; `auto` goes by the number of points."""
+        if self.keep_at_least:
+            return self.keep_at_least
+        return "all" if len(self.solved) <= MOST_KEPT_WHOLE else "summary"
+
+    @property
+    def keep_at_least(self) -> str:
+        """What records must keep because the configuration says so outright; '' if it does not."""
+        word = self.asked.get("keep", "auto")
+        return "" if word == "auto" else str(word)
 
 
 def read_study(path: Path | str) -> Study:
@@ -100,7 +119,7 @@ def make_study(values: dict) -> Study:
             for label, point in _product(axes, bands):
                 runs.setdefault(point.id, (label, point))
     figures = whole_study.figures_of(whole["figures"], [point for _, point in runs.values()])
-    study = Study(whole["study"], figures, tuple(runs.values()), bands)
+    study = Study(whole["study"], figures, tuple(runs.values()), bands, dict(values))
     alone = sum(not choice.is_fitted(point) for point in study.points) if bands else 0
     _check_count(len(runs) + alone * len(COARSENING), ", companions for bands among them")
     cost.check(study.solved, whole, "the study")
