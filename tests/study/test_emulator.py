@@ -203,7 +203,7 @@ def test_a_band_holds_its_share_of_errors():
     size = 0.01 * rows[:, 0]  # errors that grow tenfold over the range
     errors = size * rng.standard_normal(2000)
     coefficients = fitting.band_of(coordinates.GRAINS, rows, errors, np.zeros(2000))
-    band = np.exp(coordinates.quadratic(coordinates.of(coordinates.GRAINS, rows)) @ coefficients)
+    band = np.exp(coordinates.of_errors(coordinates.of(coordinates.GRAINS, rows)) @ coefficients)
     for half in (rows[:, 0] < 2, rows[:, 0] >= 2):
         assert 0.93 < np.mean(np.abs(errors[half]) <= band[half]) < 0.97
 

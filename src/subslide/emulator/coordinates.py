@@ -47,6 +47,11 @@ def of(kind: str, inputs: np.ndarray) -> np.ndarray:
     return (np.stack([np.log(a_H), r, third], axis=1) - CENTRE[kind]) / HALF[kind]
 
 
+def of_errors(z: np.ndarray) -> np.ndarray:
+    """Return `quadratic` and powers of the third coordinate, (n, 12): errors are largest at either end of it."""
+    return np.concatenate([quadratic(z), z[:, 2:] ** 3, z[:, 2:] ** 4], axis=1)
+
+
 def quadratic(z: np.ndarray) -> np.ndarray:
     """Return 1, the coordinates and their products in pairs, (n, 10), of coordinates (n, 3)."""
     x, y, w = z.T

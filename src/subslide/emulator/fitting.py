@@ -65,16 +65,17 @@ def learn(
     inverse = np.linalg.inv(covariance)
     weights = inverse @ (rest / spread)
     error = weights / np.diag(inverse)[:, None] * spread * scale
+    spread_of = coordinates.of_errors(z)
     bands = np.stack(
-        [_band(basis, e / s, d / s) for e, s, d in zip(error.T, scale.T, doubt.T, strict=True)], axis=1
+        [_band(spread_of, e / s, d / s) for e, s, d in zip(error.T, scale.T, doubt.T, strict=True)], axis=1
     )
     process = Process(points, lengths, weights * spread)
     group = Group(kind, names, law, trend, bands, process)
-    return Learned(group, values, values - error, np.exp(basis @ bands) * scale)
+    return Learned(group, values, values - error, np.exp(spread_of @ bands) * scale)
 
 
 def band_of(kind: str, inputs: np.ndarray, errors: np.ndarray, doubt: np.ndarray) -> np.ndarray:
-    """Return the coefficients (10) of the logarithm of a relative band.
+    """Return the coefficients (12) of the logarithm of a relative band.
 
     Parameters
     ----------
@@ -88,9 +89,9 @@ def band_of(kind: str, inputs: np.ndarray, errors: np.ndarray, doubt: np.ndarray
     Returns
     -------
     ndarray
-        Coefficients of `coordinates.quadratic`.
+        Coefficients of `coordinates.of_errors`.
     """
-    return _band(coordinates.quadratic(coordinates.of(kind, inputs)), errors, doubt)
+    return _band(coordinates.of_errors(coordinates.of(kind, inputs)), errors, doubt)
 
 
 def _law(basis: np.ndarray, values: np.ndarray) -> np.ndarray:

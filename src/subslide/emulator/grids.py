@@ -45,8 +45,11 @@ def limit(values: np.ndarray, cells: np.ndarray, z: np.ndarray | None) -> tuple[
     relative = basis @ np.linalg.lstsq(basis[good], drawn_in[good], rcond=None)[0]
     result = mean - relative * size * middle
     residual = values - result[:, None] - np.outer(relative * size, h)
-    return result, np.sqrt(residual**2 @ weight)
+    return result, OF_RESIDUALS * np.sqrt(residual**2 @ weight)
 
+
+OF_RESIDUALS = 1.7
+"""Doubt of a front's limit over its residuals: grids share a part of what they err by."""
 
 OF_EXTRAPOLATION = 0.15
 """Doubt of a wave's limit over how far it was extrapolated: see docs/emulator.md."""

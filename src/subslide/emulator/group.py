@@ -47,7 +47,7 @@ class Group(NamedTuple):
         scale = np.exp(basis @ self.law)
         process = self.process
         value = basis @ self.trend + kernel(z / process.lengths, process.points) @ process.weights
-        return value * scale, np.exp(basis @ self.bands) * scale
+        return value * scale, np.exp(coordinates.of_errors(z) @ self.bands) * scale
 
     def of(self, quantities: Iterable[str]) -> "Group":
         """Return the group of those names that belong to some quantities; fronts need the length of their deposit."""

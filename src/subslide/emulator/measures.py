@@ -40,6 +40,9 @@ LEARNED: dict[str, tuple[str, tuple[str, ...]]] = {
 }
 """Coordinates and quantities of each group: those of one have one kernel."""
 
+MOST = {"surface": 512}
+"""Columns that a group keeps at most: what max|eta| errs by comes of kinks, which more columns hardly mend."""
+
 POOLED = ("fronts", "arrest")
 """Groups whose errors on one grid jump from column to column, so that one smooth slope over 1/cells does for all."""
 

@@ -194,7 +194,7 @@ class Emulator:
             if is_gauge:
                 assert self.peak_band is not None
                 peak = value.max(axis=1)
-                share = np.exp(coordinates.quadratic(coordinates.of(group.kind, inputs)) @ self.peak_band)
+                share = np.exp(coordinates.of_errors(coordinates.of(group.kind, inputs)) @ self.peak_band)
                 answers[named.PEAK] = Predicted(peak, share * peak)
                 continue
             for name in wanted:

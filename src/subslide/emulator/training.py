@@ -150,7 +150,7 @@ def learn(measured: Iterable[Measured], about: Mapping[str, object]) -> Training
             exact, guess = one.values.max(axis=1), learned.left_out.max(axis=1)
             doubt = one.doubt[np.arange(len(exact)), one.values.argmax(axis=1)]
             peak_band = fitting.band_of(kind, one.inputs, guess / exact - 1, doubt / exact)
-            share = np.exp(coordinates.quadratic(coordinates.of(kind, one.inputs)) @ peak_band)
+            share = np.exp(coordinates.of_errors(coordinates.of(kind, one.inputs)) @ peak_band)
             left_out[named.PEAK] = [LeftOut(one.inputs, guess, exact, share * guess)]
             continue
         for q, quantity in enumerate(one.quantities):
@@ -200,12 +200,12 @@ def limits(measured: Iterable[Measured]) -> dict[str, Limits]:
         if not few.any() or (name == "gauge" and not few.all()):
             continue
         good = complete[:, few].all(axis=1)
-        inputs, array = inputs[good], array[good][:, :, few]
+        inputs, array = (part[good][: named.MOST.get(name)] for part in (inputs, array[:, :, few]))
         z = coordinates.of(kind, inputs) if name in named.POOLED else None
         pairs = [grids.limit(array[:, :, q], cells, z) for q in range(array.shape[2])]
         value, doubt = (np.stack([pair[k] for pair in pairs], axis=1) for k in (0, 1))
         names = tuple(np.array(quantities)[few].tolist())
-        answers[name] = Limits(names, inputs, value, doubt, len(columns) - len(inputs))
+        answers[name] = Limits(names, inputs, value, doubt, int(len(columns) - good.sum()))
     return answers
 
 
