@@ -22,7 +22,11 @@ from subslide.study.batches import read_batch, spec_text
 from subslide.study.yaml_files import read_yaml
 
 if TYPE_CHECKING:
+    from subslide.solver.checkpoint import Keeper
     from subslide.solver.run import Run
+
+UNFINISHED = ".unfinished"
+"""Folder beside a batch's record where long runs are kept until it is whole."""
 
 
 def point_of(path: str | None, options: dict[str, str]) -> Point:
@@ -92,12 +96,17 @@ def run(point: Point, threads: int, output: str) -> str:
     return f"{summary(result)} -> {output}"
 
 
-def solved(point: Point, threads: int, progress: Callable[[float], object] | None = None) -> "Run":
+def solved(
+    point: Point,
+    threads: int,
+    progress: Callable[[float], object] | None = None,
+    keeper: "Keeper | None" = None,
+) -> "Run":
     """Return the run of a point as a record keeps it: a long one thinned, so that a batch fits into memory."""
     from subslide import solver
     from subslide.records import thinning
 
-    return thinning.thinned(solver.solve(point, threads=threads, progress=progress))
+    return thinning.thinned(solver.solve(point, threads=threads, progress=progress, keeper=keeper))
 
 
 def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callable[[str], object]) -> None:
@@ -122,6 +131,7 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
     ConfigError
         If the file is no batch file, see `study.batches.read_batch`, or an output is none, see `study.outputs.check`.
     """
+    from subslide.solver.checkpoint import Keeper
     from subslide.study.locks import at_work
 
     points = read_batch(spec)
@@ -131,11 +141,16 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
         outputs.check(ledger, [*inputs, output, checksums.beside(output)], "--ledger", ".json")
     results: list[Run] = []
     with at_work(Path(os.path.realpath(output)).parent):
+        keeper = Keeper(Path(output).parent / UNFINISHED, Path(output).stem, points)
         try:
             for point in points:
-                results.append(solved(point, threads))
+                before = keeper.take(point)
+                results.append(before or solved(point, threads, keeper=keeper))
                 say(summary(results[-1]))
+                if not before:
+                    keeper.add(results[-1])
             keep_batch(results, output, ledger)
+            keeper.forget()
         except BaseException as error:
             if not (ledger and results):
                 raise
