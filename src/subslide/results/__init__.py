@@ -54,6 +54,11 @@ class Results:
         """Return whether the study was made with `bands: true`."""
         return self._listed.has_bands
 
+    @property
+    def designs(self) -> tuple[dict[str, Any], ...]:
+        """Return what points.json says of each Saltelli design: see `study.config.Study.designs`."""
+        return self._listed.designs
+
     @functools.cached_property
     def _listed(self) -> Listing:
         """Return what points.json states."""

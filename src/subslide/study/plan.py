@@ -232,4 +232,6 @@ def _index(study: Study, owner: dict[str, str]) -> str:
             {"id": point.id, "of": run.id, "role": role, "batch": owner[point.id], **to_dict(point)}
             for run, role, point in study.companions
         ]
+    if study.designs:
+        index["designs"] = study.designs
     return json.dumps(index, indent=1, allow_nan=False) + "\n"
