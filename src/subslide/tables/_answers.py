@@ -62,7 +62,7 @@ def once(results: "Results") -> list[Answer]:
     }
     answers = []
     for name, scale in scales.items():
-        values = np.where(well, rows[name], np.nan) / scale
+        values = np.where(well, rows[name].to_numpy(float), np.nan) / scale
         if np.isnan(values).all():
             continue
         half_widths = None

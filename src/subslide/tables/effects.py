@@ -40,5 +40,4 @@ def table(results: "Results") -> Iterator[dict]:
                 columns = ("value", "mean", "low", "high", "sampling", "grid")
                 for values in zip(*(getattr(result, column) for column in columns), strict=True):
                     row = dict(zip(columns, map(float, values), strict=True))
-                    grid = row["grid"] if results.has_bands else None
-                    yield {**design.first, "output": answer.name, "input": name, **row, "grid": grid}
+                    yield {**design.first, "output": answer.name, "input": name, **row}

@@ -79,10 +79,8 @@ def table(results: "Results") -> Iterator[dict]:
             for n in range(len(result.estimate)):
                 row = of_index(design.names, result, n)
                 converged = "yes" if row["high"] - row["low"] <= 2 * CONVERGED else "no"
-                yield {
-                    **design.first, "output": answer.name, **row, "converged": converged, **size, "failed": failed,
-                    "grid": row["grid"] if results.has_bands else None,
-                }  # fmt: skip
+                first = {**design.first, "output": answer.name}
+                yield {**first, **row, "converged": converged, **size, "failed": failed}
 
 
 def of_index(names: list[str], result: sobol.Indices, n: int, *place: int) -> dict:

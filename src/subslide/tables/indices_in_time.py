@@ -42,13 +42,11 @@ def table(results: "Results") -> Iterator[dict]:
     well = _answers.ended_well(results)
     for design in _saltelli.designs(results):
         for answer in _saltelli.answers(design, listed):
+            first = {**design.first, "output": answer.name}
             reached = ~np.isnan(answer.values[well[design.runs]]).any(axis=0)
             result = sobol.indices(answer.values, answer.half_widths, design.inputs)
-            variance = np.nanvar(answer.values, axis=(0, 1, 2))
             for at in np.flatnonzero(reached & np.isfinite(result.estimate[0])).tolist():
+                variance = float(np.nanvar(answer.values[..., at]))
                 for n in range(len(result.estimate)):
                     row = indices.of_index(design.names, result, n, at)
-                    yield {
-                        **design.first, "output": answer.name, "time": float(_answers.TIMES[at]), **row,
-                        "grid": row["grid"] if results.has_bands else None, "variance": float(variance[at]),
-                    }  # fmt: skip
+                    yield {**first, "time": float(_answers.TIMES[at]), **row, "variance": variance}
