@@ -108,3 +108,19 @@ def of_index(names: list[str], result: sobol.Indices, n: int, *place: int) -> di
         "other": names[label.places[1]] if len(label.places) > 1 else None,
         **values,
     }
+
+
+def text(results: "Results") -> str:
+    """Return first-order and total indices with their bands, a line for each input."""
+    lines = []
+    for (design, inputs, output), rows in results.table("indices").groupby(
+        ["design", "inputs", "output"], sort=False
+    ):
+        lines += ["", f"design {design} ({inputs}), {output}"]
+        for kind in ("first", "total"):
+            some = rows[rows["kind"] == kind]
+            lines += [
+                f"  {kind:6} {row['input']:6} {row['estimate']:7.3f}  [{row['low']:6.3f}, {row['high']:6.3f}]"
+                for _, row in some.iterrows()
+            ]
+    return "\n".join(lines[1:])
