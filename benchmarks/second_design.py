@@ -1,10 +1,10 @@
-"""A second, independent design: how many indices agree with those of a finished study within the band of the difference.
+"""A second, independent design: how many indices agree with a finished study's within the band of the difference.
 
     .venv/bin/python benchmarks/second_design.py results/sensitivity [--config config/sensitivity.yaml] [--seed 1001]
 
 Runs the study's configuration with other seeds, without bands, as the study NAME-second, and compares every index of
-both tables. Only sampling differs between them (both have one grid's errors), so the band of a difference is made of the
-half-widths for sampling alone: the root of the sum of their squares. Exits with 1 if fewer than 90 % agree.
+both tables. Only sampling differs between them (both have one grid's errors), so the band of a difference is made of
+the half-widths for sampling alone: the root of the sum of their squares. Exits with 1 if fewer than 90 % agree.
 """
 
 import argparse
