@@ -38,11 +38,12 @@ class Companion(NamedTuple):
 
 
 class Listing(NamedTuple):
-    """The runs of a study, in the order of the tables, their companions, whether the study has bands, and its designs."""
+    """The runs of a study, in the order of the tables, their companions, whether it has bands, what was asked, designs."""
 
     runs: tuple[StudyRun, ...]
     companions: tuple[Companion, ...]
     has_bands: bool
+    asked: dict[str, Any]
     designs: tuple[dict[str, Any], ...] = ()
 
 
@@ -79,6 +80,7 @@ def listed(folder: Path) -> Listing:
             Companion(row["id"], row["of"], row["role"], row["point"], row["batch"])
             for row in rows.get("companions", ())
         )
+        asked = dict(index.get("asked", {}))
         if not runs:
             raise ValueError("there are no points")
         designs = tuple(index.get("designs", ()))
@@ -90,7 +92,7 @@ def listed(folder: Path) -> Listing:
         raise RecordError(f"{path} is damaged or not of this version ({what}); {AGAIN}") from None
     if fault and checksums.beside(path).exists():
         raise RecordError(f"{fault}; {AGAIN}")
-    return Listing(runs, others, "companions" in sections, designs)
+    return Listing(runs, others, "companions" in sections, asked, designs)
 
 
 def verify(path: Path) -> None:
