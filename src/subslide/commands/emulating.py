@@ -201,3 +201,64 @@ def predict(emulator: str | None, **options: str | None) -> None:
     values = {key: number(text, key, f"--{key.replace('_', '-')}") for key, text in options.items()}
     for line in telling.lines(Emulator.load(emulator), Point(**values)):
         click.echo(line)
+
+
+@cli.command()
+@click.argument("data", metavar="DATA.csv")
+@click.option(
+    "--threshold", required=True, metavar="SHARE", help="depth that defines the fronts over H2: 1% to 5%"
+)
+@click.option(
+    "--a-2", "a_2", required=True, metavar="NUMBER", help="aspect ratio H2/R of the column, which is known"
+)
+@click.option("--radius", metavar="M", help="initial radius R (m)  [default: 0.0705]")
+@click.option("--g", metavar="NUMBER", help="acceleration of gravity (m s-2)  [default: 9.81]")
+@click.option("--a-H", "a_H", metavar="NUMBER", help="water depth over the column, if it is known")
+@click.option("--r", metavar="NUMBER", help="ratio of densities, if it is known")
+@click.option("--delta", metavar="DEGREE", help="friction angle, if it is known")
+@click.option(
+    "--model-error", default="0%", show_default=True, metavar="SHARE", help="model's own error of a front"
+)
+@click.option("--check/--no-check", default=True, help="ask the solver at the best fit")
+@emulator_option
+@click.option("-o", "--output", metavar="FILE.json", help="file for the numbers, with the profiles")
+def calibrate(
+    data: str,
+    threshold: str,
+    model_error: str,
+    check: bool,
+    emulator: str | None,
+    output: str | None,
+    **options: str | None,
+) -> None:
+    """Find the column, (a_H, r, delta), whose fronts are those of DATA.csv, and how far the data tell it.
+
+    DATA.csv has the columns time (s; empty for the deposit), x_front (m from the axis) and error (m, one standard
+    deviation). Errors of the data are thought independent; the prior is even in ln a_H, r and delta.
+    """
+    import json
+
+    from subslide import jobs
+    from subslide.emulator import Emulator, calibration, observed
+    from subslide.files import write_text
+    from subslide.points import Point
+    from subslide.study import outputs
+
+    values = {
+        key: number(text, key, f"--{key.replace('_', '-')}")
+        for key, text in options.items()
+        if text is not None
+    }
+    fixed = {key: values.pop(key) for key in observed.FREE if key in values}
+    own_error = 0.0 if model_error.rstrip("%") in ("0", "0.0") else share(model_error, "--model-error")
+    if output is not None:
+        outputs.check(output, [data, *([emulator] if emulator else [])], end=".json")
+    fronts = observed.read(data, share(threshold, "--threshold"))
+    model = observed.Model(Emulator.load(emulator), fronts, Point(**values), fixed, own_error)
+    observed.check_known(model)
+    jobs.set_threads(1)
+    answer = calibration.calibrate(model, check)
+    if output is not None:
+        write_text(output, json.dumps(calibration.told(answer, data), indent=1) + "\n")
+    for line in calibration.lines(answer):
+        click.echo(line)
