@@ -123,9 +123,8 @@ def emulate(
     study = Results(folder)
     runs = study.runs_of_study
     path = output or str(folder / "emulator.json")
-    outputs.check_sealed(
-        path, outputs.of_study(folder, but=[Path(path), checksums.beside(path)]), end=".json"
-    )
+    within = outputs.of_study(folder, but=[Path(path), checksums.beside(path)])
+    (outputs.check_sealed if output is None else outputs.check)(path, within, end=".json")
     jobs.set_threads(1)
     about = {"study": folder.resolve().name, "runs": len(runs), "sources": source_hash()}
     measured = [*training.of_study(study), *growing.kept(folder)]
@@ -136,7 +135,8 @@ def emulate(
         trained, added = growing.grow(measured, about, goal, processes, click.echo)
         growing.keep(folder, [*growing.kept(folder), *added])
     trained.emulator.save(path)
-    checksums.seal(path, sources=source_hash("table"))
+    if output is None:
+        checksums.seal(path, sources=source_hash())
     for group, count in trained.known.items():
         lost = (
             f", {trained.dropped[group]} left out since a run lacks a value" if trained.dropped[group] else ""

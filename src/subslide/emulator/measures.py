@@ -10,7 +10,7 @@ from subslide.naming import FRONT_LABELS
 from subslide.points import Point
 from subslide.study import choice
 
-FRONT_NODES = (0.02, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.3, 1.6, 2.0, 2.5)
+FRONT_NODES = (0.02, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.15, 1.3, 1.6, 2.0)
 """Times t m sqrt(1-r), scaled, at which fronts are learned: friction stops all of them at about 1.8. Before the first a
 front leaves R; between them a monotone cubic goes."""
 
