@@ -289,4 +289,4 @@ def test_emulate_refuses_what_is_no_goal(tmp_path, capsys):
     assert main(["emulate", str(tmp_path), "--to", "2"]) == 2
     assert "--to: '2' is not allowed; allowed: a share" in capsys.readouterr().err
     assert main(["emulate", str(tmp_path), "--to", "2%", "--quantity", "L"]) == 2
-    assert "--quantity: 'L' is not allowed; allowed: L_f_1pc" in capsys.readouterr().err
+    assert "--quantity: L is not allowed; allowed: L_f_1pc" in capsys.readouterr().err

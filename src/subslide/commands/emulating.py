@@ -112,13 +112,9 @@ def emulate(
     from subslide.study import outputs
 
     goal = None if to is None else growing.Goal(quantity, share(to, "--to"), most)
-    known = tuple(
-        dict.fromkeys(name.partition("@")[0] for _, names in measures.LEARNED.values() for name in names)
-    )
-    if goal and quantity not in (*known, measures.PEAK):
-        raise ConfigError(
-            f"--quantity: {words.show(quantity)} is not allowed; allowed: {', '.join(known)}, {measures.PEAK}"
-        )
+    if goal and quantity not in measures.QUANTITIES:
+        allowed = ", ".join(measures.QUANTITIES)
+        raise ConfigError(f"--quantity: {words.show(quantity)} is not allowed; allowed: {allowed}")
     folder = Path(results)
     study = Results(folder)
     runs = study.runs_of_study

@@ -40,6 +40,9 @@ LEARNED: dict[str, tuple[str, tuple[str, ...]]] = {
 }
 """Coordinates and quantities of each group: those of one have one kernel."""
 
+QUANTITIES = (*LENGTHS, *FRONTS, *ARRESTS, PEAK, SURFACE)
+"""What an emulator predicts."""
+
 MOST = {"surface": 512}
 """Columns that a group keeps at most: what max|eta| errs by comes of kinks, which more columns hardly mend."""
 
