@@ -48,14 +48,14 @@ def drawn(kind: str, count: int) -> list[list[Point]]:
     return columns
 
 
-def solved(kind: str, count: int, folder: Path) -> list[Measured]:
+def solved(kind: str, count: int, folder: Path, cores: int) -> list[Measured]:
     """Return what is learned of random columns; from `folder` what is there."""
     columns, runs = drawn(kind, count), []
     for first in range(0, count, AT_ONCE):
         path = folder / f"{kind}_{first:05d}.json"
         if not path.exists():
             points = [point for column in columns[first : first + AT_ONCE] for point in column]
-            rows = [[to_dict(one.point), one.values] for one in growing.solved(points, os.cpu_count() or 1)]
+            rows = [[to_dict(one.point), one.values] for one in growing.solved(points, cores)]
             path.with_suffix(".part").write_text(json.dumps(rows))
             path.with_suffix(".part").replace(path)
             print(path, flush=True)
@@ -100,11 +100,12 @@ def main() -> None:
     parser.add_argument("--waves", type=int, default=200, help="columns whose waves are solved")
     parser.add_argument("--emulator", help="file of subslide emulate; without it the package's")
     parser.add_argument("--keep", default="results/bench/emulator", help="folder for what is solved")
+    parser.add_argument("--cores", type=int, default=os.cpu_count() or 1, help="processes that solve")
     arguments = parser.parse_args()
     folder = Path(arguments.keep)
     folder.mkdir(parents=True, exist_ok=True)
     emulator = Emulator.load(arguments.emulator)
-    runs = [run for kind in GRIDS for run in solved(kind, getattr(arguments, kind), folder)]
+    runs = [run for kind in GRIDS for run in solved(kind, getattr(arguments, kind), folder, arguments.cores)]
     for line in table(judging.against(emulator, training.limits(runs))):
         print(line)
     for quantities in (["L_f_1pc"], ["eta_gauge_peak"], ["x_front_1pc"], None):

@@ -218,6 +218,7 @@ def predict(emulator: str | None, **options: str | None) -> None:
 @click.option("--check/--no-check", default=True, help="ask the solver at the best fit")
 @emulator_option
 @click.option("-o", "--output", metavar="FILE.json", help="file for the numbers, with the profiles")
+@click.option("--figure", metavar="FILE.png", help="file for a figure of the best fit and the profiles")
 def calibrate(
     data: str,
     threshold: str,
@@ -225,6 +226,7 @@ def calibrate(
     check: bool,
     emulator: str | None,
     output: str | None,
+    figure: str | None,
     **options: str | None,
 ) -> None:
     """Find the column, (a_H, r, delta), whose fronts are those of DATA.csv, and how far the data tell it.
@@ -247,8 +249,11 @@ def calibrate(
     }
     fixed = {key: values.pop(key) for key in observed.FREE if key in values}
     own_error = 0.0 if model_error.rstrip("%") in ("0", "0.0") else share(model_error, "--model-error")
+    inputs = [data, *([emulator] if emulator else [])]
     if output is not None:
-        outputs.check(output, [data, *([emulator] if emulator else [])], end=".json")
+        outputs.check(output, inputs, end=".json")
+    if figure is not None:
+        outputs.check(figure, inputs, "--figure", ".png")
     fronts = observed.read(data, share(threshold, "--threshold"))
     model = observed.Model(Emulator.load(emulator), fronts, Point(**values), fixed, own_error)
     observed.check_known(model)
@@ -256,5 +261,9 @@ def calibrate(
     answer = calibration.calibrate(model, check)
     if output is not None:
         write_text(output, json.dumps(calibration.told(answer, data), indent=1) + "\n")
+    if figure is not None:
+        from subslide.figures import _calibration
+
+        _calibration.save(answer, figure)
     for line in calibration.lines(answer):
         click.echo(line)
