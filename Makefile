@@ -71,7 +71,7 @@ sensitivity: $(READY)  ## Sobol' indices, main effects and power laws of the pap
 .PHONY: emulator
 emulator: $(READY)  ## make the emulator of the package anew: 4,000 runs, then fits (six minutes on 2 cores)
 	@$(BIN)/subslide unlock config/emulator.yaml
-	@$(BIN)/snakemake --configfile config/emulator.yaml --cores "$$CORES" --until batch
+	@$(BIN)/snakemake --configfile config/emulator.yaml --cores "$$CORES" --until points batch
 	@$(BIN)/subslide emulate results/emulator -o src/subslide/emulator/emulator.json
 
 setup: $(READY)  ## set up alone: .venv with the locked packages and this one
