@@ -14,7 +14,7 @@ from subslide.files import RecordError, write_text
 from subslide.keys.schema import ConfigError
 
 FORMAT = "subslide emulator 1"
-CHUNK = 256
+CHUNK = 128
 """Points that are predicted at once: their kernel stays in the cache."""
 
 Numbers = float | Sequence[float] | np.ndarray
