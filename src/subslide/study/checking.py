@@ -4,7 +4,8 @@ from typing import Any
 
 from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
-from subslide.points import RUN_KEYS, STANDS_FOR, Point, from_dict
+from subslide.keys.values import RUN_KEYS, STANDS_FOR
+from subslide.points import Point, from_dict
 from subslide.study import scene_options, together
 
 MARK = "_checked"

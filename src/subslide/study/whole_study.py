@@ -1,5 +1,7 @@
 """The keys that say something of a whole study, and nothing of one run: its name, figures, bands and limits."""
 
+import functools
+from collections.abc import Callable
 from typing import Any
 
 from subslide import catalogue
@@ -66,12 +68,13 @@ def figures_of(chosen: Any, points: list[Point]) -> tuple[str, ...]:
         If a figure needs runs that the study does not have.
     """
     known = catalogue.names("figures")
+    present = _present(points)
     if chosen == "none":
         return ()
     if chosen == "auto":
-        return tuple(name for name in known if not lacking(name, points))
+        return tuple(name for name in known if not _lacking(name, present))
     for name in chosen:
-        if lack := lacking(name, points):
+        if lack := _lacking(name, present):
             raise ConfigError(f"figures: {name} needs runs with {lack}, which this study does not have")
     return tuple(name for name in known if name in chosen)
 
@@ -91,9 +94,18 @@ def lacking(name: str, points: list[Point]) -> str:
     str
         What is lacking, as a configuration would state it.
     """
+    return _lacking(name, _present(points))
+
+
+def _present(points: list[Point]) -> Callable[[str], set]:
+    """Return a function that gives the values which points have of a key, and looks at them once."""
+    return functools.cache(lambda key: {getattr(point, key) for point in points})
+
+
+def _lacking(name: str, present: Callable[[str], set]) -> str:
+    """Return the first 'key: value' that a figure needs and no point has, or ''."""
     for key, needed in catalogue.figure(name).needs.items():
-        present = {getattr(point, key) for point in points}
         for value in needed:
-            if value not in present:
+            if value not in present(key):
                 return f"{key}: {value}"
     return ""
