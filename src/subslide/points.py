@@ -3,6 +3,7 @@
 import functools
 import hashlib
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, make_dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -110,6 +111,11 @@ class Point(Values):
         point = cls.__new__(cls)
         object.__setattr__(point, "__dict__", mapping)
         return point
+
+    @property
+    def chosen(self) -> Mapping[str, Any]:
+        """Values by key, defaults left out or not, and what is remembered of the point by other names."""
+        return vars(self)
 
     @functools.cached_property
     def id(self) -> str:
@@ -239,12 +245,12 @@ def canonical(point: Point) -> str:
 
     A file that its scene reads is known by its content, which is one of the options, and not by its path.
     """
-    return values.text(vars(point), catalogue.options_that_read(point.scene))
+    return values.text(point.chosen, catalogue.options_that_read(point.scene))
 
 
 def to_dict(point: Point) -> dict[str, Any]:
     """Return the values of a point by key, as a configuration would state them; numbers in one format."""
-    return values.all_stated(vars(point))
+    return values.all_stated(point.chosen)
 
 
 def options_text(point: Point) -> str:
