@@ -22,7 +22,11 @@ from subslide.study.batches import read_batch, spec_text
 from subslide.study.yaml_files import read_yaml
 
 if TYPE_CHECKING:
+    from subslide.solver.checkpoint import Keeper
     from subslide.solver.run import Run
+
+UNFINISHED = ".unfinished"
+"""Folder beside a batch's record where long runs are kept until it is whole."""
 
 
 def point_of(path: str | None, options: dict[str, str]) -> Point:
@@ -92,12 +96,37 @@ def run(point: Point, threads: int, output: str) -> str:
     return f"{summary(result)} -> {output}"
 
 
-def solved(point: Point, threads: int, progress: Callable[[float], object] | None = None) -> "Run":
-    """Return the run of a point as a record keeps it: a long one thinned, so that a batch fits into memory."""
+def solved(
+    point: Point,
+    threads: int,
+    progress: Callable[[float], object] | None = None,
+    keep: str = "all",
+    keeper: "Keeper | None" = None,
+) -> "Run":
+    """Return the run of a point as a record keeps it: a long one thinned, so that a batch fits into memory.
+
+    Parameters
+    ----------
+    point
+        The run.
+    threads
+        Cores for it.
+    progress
+        Function that is called with the time (s) that the run has reached.
+    keep
+        What the record keeps of it, one of `subslide.keys.kept.WORDS`.
+    keeper
+        What keeps the state of a long run, and gives it back.
+
+    Returns
+    -------
+    Run
+        The run.
+    """
     from subslide import solver
     from subslide.records import thinning
 
-    return thinning.thinned(solver.solve(point, threads=threads, progress=progress))
+    return thinning.thinned(solver.solve(point, threads=threads, progress=progress, keeper=keeper))
 
 
 def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callable[[str], object]) -> None:
@@ -122,25 +151,31 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
     ConfigError
         If the file is no batch file, see `study.batches.read_batch`, or an output is none, see `study.outputs.check`.
     """
+    from subslide.solver.checkpoint import Keeper
     from subslide.study.locks import at_work
 
-    points = read_batch(spec)
+    points, keep = read_batch(spec)
     inputs = {spec, *(file for point in points for file in scenes.files(point))}
     outputs.check_sealed(output, inputs)
     if ledger is not None:
         outputs.check(ledger, [*inputs, output, checksums.beside(output)], "--ledger", ".json")
     results: list[Run] = []
     with at_work(Path(os.path.realpath(output)).parent):
+        keeper = Keeper(Path(output).parent / UNFINISHED, Path(output).stem, points)
         try:
             for point in points:
-                results.append(solved(point, threads))
+                before = keeper.take(point)
+                results.append(before or solved(point, threads, keep=keep, keeper=keeper))
                 say(summary(results[-1]))
-            keep_batch(results, output, ledger)
+                if not before:
+                    keeper.add(results[-1])
+            keep_batch(results, output, ledger, keep)
+            keeper.forget()
         except BaseException as error:
             if not (ledger and results):
                 raise
             part, record = unused_part(ledger, output)
-            keep_batch(results, str(record), str(part))
+            keep_batch(results, str(record), str(part), keep)
             said = f"stopped: the {len(results)} runs that were solved are kept as batch {part.stem}"
             if isinstance(error, KeyboardInterrupt | Stopped):
                 raise Stopped(getattr(error, "signal", signal.SIGINT), said) from None
@@ -149,13 +184,23 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
     say(f"{len(results)} runs -> {output}")
 
 
-def keep_batch(results: list["Run"], output: str, ledger: str | None) -> None:
-    """Write the record of runs, its checksum and, if it is given, the ledger's file, each whole or not at all."""
+def keep_batch(results: list["Run"], output: str, ledger: str | None, keep: str = "all") -> None:
+    """Write the record of runs, its checksum and, if it is given, the ledger's file, each whole or not at all.
+
+    Parameters
+    ----------
+    results
+        Runs, as `solved` gives them.
+    output, ledger
+        Paths of the record and of the ledger's file.
+    keep
+        What is kept of each run, one of `subslide.keys.kept.WORDS`.
+    """
     from subslide.records import netcdf as records
 
-    text = spec_text(result.point for result in results)
+    text = spec_text([result.point for result in results], keep)
     checksums.beside(output).unlink(missing_ok=True)
-    records.write(output, results)
+    records.write(output, results, keep)
     checksums.seal(output, batch=checksums.text_hash(text), sources=source_hash())
     if ledger:
         write_text(ledger, text)

@@ -3,7 +3,7 @@
 import functools
 import hashlib
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, make_dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -248,9 +248,24 @@ def canonical(point: Point) -> str:
     return values.text(point.chosen, catalogue.options_that_read(point.scene))
 
 
-def to_dict(point: Point) -> dict[str, Any]:
-    """Return the values of a point by key, as a configuration would state them; numbers in one format."""
-    return values.all_stated(point.chosen)
+def to_dict(point: Point, keys: Sequence[str] = RUN_KEYS) -> dict[str, Any]:
+    """Return the values of a point by key, as a configuration would state them; numbers in one format.
+
+    Parameters
+    ----------
+    point
+        The point.
+    keys
+        Keys whose values are wanted.
+
+    Returns
+    -------
+    dict
+        Value by key.
+    """
+    if keys is RUN_KEYS:
+        return values.all_stated(point.chosen)
+    return {key: values.stated(key, getattr(point, key)) for key in keys}
 
 
 def options_text(point: Point) -> str:

@@ -18,7 +18,7 @@ from collections.abc import Callable
 from typing import Any
 
 from subslide import catalogue
-from subslide.keys import designs, names
+from subslide.keys import designs, kept, names
 
 Entry = dict[str, Any]
 
@@ -124,6 +124,7 @@ ENTRIES: dict[str, Entry] = {
         "allowed": "a list of mappings of keys of a run",
         "default": [{}],
     },
+    "keep": {"role": STUDY, **kept.ENTRY},
     "design": {"role": DESIGN, **designs.ENTRY},
     "max_core_hours": limit("hours on one core, as estimated, that a study may take", 100, "h", 1e-3, 1e7),
     "max_memory": limit("memory, as estimated, that the largest run may take", 8, "GB", 0.1, 1e5),

@@ -1,8 +1,8 @@
 """From a YAML file to a study: checked values, and the table of its points."""
 
-import functools
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,8 @@ from subslide.study.designs import Design
 from subslide.study.expansion import Grid
 from subslide.study.yaml_files import read_yaml
 
+MOST_KEPT_WHOLE = 2_000
+"""Solved points up to which `keep: auto` keeps all of each run."""
 FEWEST_CELLS = 10
 AXES = ("numerics", *RUN_KEYS)
 CASE_KEYS = ("design", *AXES)
@@ -36,6 +38,8 @@ class Study:
         Label of the numerics, and point, of each run, without repeats, in the order of the tables.
     bands
         Whether each run has bands, for which those on uniform grids have companions on coarser ones.
+    asked
+        Configuration by key, as its file states it, checked.
     designs
         Of each Saltelli design, and combination of the axes beside it: ``kind``, ``spec`` as checked, ``others`` (value
         by key of those axes), ``names`` of its inputs, and ``ids`` (scramblings, blocks, points) of its runs.
@@ -45,14 +49,15 @@ class Study:
     figures: tuple[str, ...]
     runs: tuple[tuple[str, Point], ...]
     bands: bool = False
+    asked: dict[str, Any] = field(default_factory=dict)
     designs: tuple[dict[str, Any], ...] = ()
 
-    @functools.cached_property
+    @cached_property
     def points(self) -> tuple[Point, ...]:
         """Points in the order of the tables."""
         return tuple(point for _, point in self.runs)
 
-    @functools.cached_property
+    @cached_property
     def companions(self) -> tuple[tuple[Point, str, Point], ...]:
         """Run, role and point of each companion: none without bands, else two for each run on a uniform grid."""
         return tuple(
@@ -62,11 +67,24 @@ class Study:
             for role, ratio in COARSENING.items()
         )
 
-    @functools.cached_property
+    @cached_property
     def solved(self) -> tuple[Point, ...]:
         """Points to solve, without repeats: the runs, then those companions that are not runs as well."""
         companions = (point for *_, point in self.companions)
         return tuple({point.id: point for point in (*self.points, *companions)}.values())
+
+    @property
+    def keep(self) -> str:
+        """What records keep of each run, one of `subslide.keys.kept.WORDS`; `auto` goes by the number of points."""
+        if self.keep_at_least:
+            return self.keep_at_least
+        return "all" if len(self.solved) <= MOST_KEPT_WHOLE else "summary"
+
+    @property
+    def keep_at_least(self) -> str:
+        """What records must keep because the configuration says so outright; '' if it does not."""
+        word = self.asked.get("keep", "auto")
+        return "" if word == "auto" else str(word)
 
 
 def read_study(path: Path | str) -> Study:
@@ -112,8 +130,10 @@ def make_study(values: dict) -> Study:
                 ids.append(point.id)
                 runs.setdefault(point.id, (label, point))
         listed += expansion.members(grid, along, ids)
-    figures = whole_study.figures_of(whole["figures"], [point for _, point in runs.values()])
-    study = Study(whole["study"], figures, tuple(runs.values()), bands, tuple(listed))
+    figures = whole_study.figures_of(
+        whole["figures"], [point for _, point in runs.values()], {one["kind"] for one in listed}
+    )
+    study = Study(whole["study"], figures, tuple(runs.values()), bands, dict(values), tuple(listed))
     alone = sum(not choice.is_fitted(point) for point in study.points) if bands else 0
     _check_count(len(runs) + alone * len(COARSENING), ", companions for bands among them")
     cost.check(study.solved, whole, "the study")
