@@ -111,6 +111,11 @@ class Point(Values):
         return "p" + hashlib.sha256(canonical(self).encode()).hexdigest()[:12]
 
     @property
+    def has_weightless_water(self) -> bool:
+        """Whether the water has no weight beside the grains, so that one layer is the whole model."""
+        return self.r == 0
+
+    @property
     def column_height(self) -> float:
         """Height H2 (m) of the column."""
         return self.a_2 * self.radius
@@ -279,19 +284,19 @@ def from_dict(values: dict[str, Any]) -> Point:
 
 
 def held(key: str, value: Any) -> Any:
-    """Return the checked value of a key, as a configuration states it, as a point holds it.
+    """Return the checked value of a key as a point holds it.
 
     Parameters
     ----------
     key
-        Key of a run.
+        One of `RUN_KEYS`.
     value
-        What a configuration states for it; None stands for its word beside numbers.
+        Its value as a configuration states it.
 
     Returns
     -------
     object
-        The value: numbers in one format, options and times sorted.
+        The value, in one number format; None for a word that stands beside numbers.
     """
     if value is None or value == STANDS_FOR.get(key):
         return None

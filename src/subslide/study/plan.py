@@ -12,7 +12,7 @@ import json
 import os
 import re
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from subslide import checksums, source_hash
 from subslide.checksums import text_hash
@@ -241,7 +241,9 @@ def _index(study: Study, owner: dict[str, str]) -> str:
 
     A companion states the id of its run (`of`) and its role; a point that is companion of two runs is there twice.
     """
-    head = {"study": study.name, "keep": study.keep, "asked": study.asked}
+    head: dict[str, Any] = {"study": study.name, "keep": study.keep, "asked": study.asked}
+    if study.designs:
+        head["designs"] = study.designs
     sections: dict[str, list] = {
         "points": [
             ({"id": point.id, "batch": owner[point.id], "numerics": label}, point)
