@@ -6,7 +6,7 @@ from typing import Any
 
 from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
-from subslide.points import RUN_KEYS, Point, from_dict, held, options_text, to_dict
+from subslide.points import RUN_KEYS, Point, from_dict, held, to_dict
 from subslide.study import checking
 
 SHARED = "shared"
@@ -32,7 +32,9 @@ def unlike(points: Sequence[Point]) -> list[str]:
     keys = [
         key for key in RUN_KEYS if key != "scene_options" and any(v[key] != values[0][key] for v in values)
     ]
-    if len(set(map(options_text, points))) > 1:  # text, since 1 and 1.0 are two values of an option
+    if (
+        len({repr(v["scene_options"]) for v in values}) > 1
+    ):  # text, since 1 and 1.0 are two values of an option
         keys.append("scene_options")
     return keys
 
