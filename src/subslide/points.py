@@ -284,19 +284,19 @@ def from_dict(values: dict[str, Any]) -> Point:
 
 
 def held(key: str, value: Any) -> Any:
-    """Return the checked value of a key as a point holds it.
+    """Return the checked value of a key, as a configuration states it, as a point holds it.
 
     Parameters
     ----------
     key
-        One of `RUN_KEYS`.
+        Key of a run.
     value
-        Its value as a configuration states it.
+        What a configuration states for it; None stands for its word beside numbers.
 
     Returns
     -------
     object
-        The value, in one number format; None for a word that stands beside numbers.
+        The value: numbers in one format, options and times sorted.
     """
     if value is None or value == STANDS_FOR.get(key):
         return None
