@@ -23,6 +23,13 @@ study: $(READY)  ## check a study and run it: make study CONFIG=config/mine.yaml
 	@$(BIN)/snakemake --configfile="$$CONFIG" --cores "$$CORES"
 	@echo "The study in $$CONFIG is up to date: its tables, figures and report.html are in results/, under its name"
 
+.PHONY: plan prune
+plan: $(READY)  ## say what a study would cost, and write nothing: make plan CONFIG=config/mine.yaml
+	@$(BIN)/subslide plan -- "$$CONFIG"
+
+prune: $(READY)  ## remove records that hold no point which a study asks for: make prune CONFIG=config/mine.yaml
+	@$(BIN)/subslide prune -- "$$CONFIG"
+
 test: $(READY)  ## set up, then lint, format, types and every test
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .

@@ -126,7 +126,7 @@ def plan(study: Study, folder: Path, cores: int = 2) -> Plan:
     """
     asked = {point.id: point for point in study.solved}
     stated = {}
-    for path in _files(folder):
+    for path in ledger_files(folder):
         if entry := _entry(path, record_path(folder, path.stem), asked, study.keep_at_least):
             stated[path.stem] = entry
     owner: dict[str, str] = {}
@@ -142,7 +142,7 @@ def plan(study: Study, folder: Path, cores: int = 2) -> Plan:
             batches[name] = _to_solve(name, points, study.keep, *entry.state)
     new = [point for point in asked.values() if point.id not in owner]
     sharing = Sharing(study.keep, study.batch_seconds, cores, pace.known())
-    last = max((int(path.stem.partition("p")[0]) for path in _files(folder)), default=0)
+    last = max((int(path.stem.partition("p")[0]) for path in ledger_files(folder)), default=0)
     for number, unsolved in enumerate(split(new, sharing), last + 1):
         batches[f"{number:04d}"] = _to_solve(f"{number:04d}", tuple(unsolved), study.keep)
     owner |= {point.id: batch.name for batch in batches.values() for point in batch.points}
@@ -189,8 +189,19 @@ def _to_solve(
     return Batch(name, points, text_hash(text), text, fault, damaged)
 
 
-def _files(folder: Path) -> list[Path]:
-    """Return the files of the ledger; backups and whatever else lies beside them are none."""
+def ledger_files(folder: Path) -> list[Path]:
+    """Return the files of the ledger; backups and whatever else lies beside them are none.
+
+    Parameters
+    ----------
+    folder
+        Folder of the study.
+
+    Returns
+    -------
+    list of Path
+        The files, by name.
+    """
     home = folder / "batches"
     entries = home.iterdir() if home.is_dir() else ()
     return sorted(path for path in entries if path.suffix == ".json" and NAME.fullmatch(path.stem))
