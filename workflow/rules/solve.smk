@@ -66,5 +66,6 @@ rule batch:
         runtime=lambda wildcards, attempt: attempt * STAGED.needs[wildcards.batch].runtime,
     params:
         spec=lambda wildcards: STAGED.specs[wildcards.batch],
+        counts=lambda wildcards: progress.counter_path(HOME, wildcards.batch),
     shell:
-        "logged {log:q} subslide batch {params.spec:q} --threads {threads} -o {output.record:q} --ledger {output.ledger:q}"
+        "logged {log:q} subslide batch {params.spec:q} --threads {threads} -o {output.record:q} --ledger {output.ledger:q} --counts {params.counts:q}"

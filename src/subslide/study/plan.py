@@ -20,7 +20,7 @@ from subslide.files import RecordError
 from subslide.keys import kept
 from subslide.keys.schema import ConfigError
 from subslide.points import Point, from_dict
-from subslide.study import pace, rows
+from subslide.study import cost, pace, rows
 from subslide.study.batches import MOST_BATCH_BYTES, Sharing, spec_text, split
 from subslide.study.config import Study
 
@@ -77,6 +77,15 @@ class Plan(NamedTuple):
     keep: str
     batches: dict[str, Batch]
     points_text: str
+
+    @property
+    def to_solve(self) -> dict[str, tuple[int, float]]:
+        """Number of points, and estimated seconds, of each batch that is to be solved, by its name."""
+        return {
+            name: (len(batch.points), sum(cost.seconds(point, self.keep) for point in batch.points))
+            for name, batch in self.batches.items()
+            if batch.text
+        }
 
     @property
     def faults(self) -> list[str]:
