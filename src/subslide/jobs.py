@@ -22,7 +22,11 @@ from subslide.study.batches import read_batch, spec_text
 from subslide.study.yaml_files import read_yaml
 
 if TYPE_CHECKING:
+    from subslide.solver.checkpoint import Keeper
     from subslide.solver.run import Run
+
+UNFINISHED = ".unfinished"
+"""Folder beside a batch's record where long runs are kept until it is whole."""
 
 
 def point_of(path: str | None, options: dict[str, str]) -> Point:
@@ -93,7 +97,11 @@ def run(point: Point, threads: int, output: str) -> str:
 
 
 def solved(
-    point: Point, threads: int, progress: Callable[[float], object] | None = None, keep: str = "all"
+    point: Point,
+    threads: int,
+    progress: Callable[[float], object] | None = None,
+    keep: str = "all",
+    keeper: "Keeper | None" = None,
 ) -> "Run":
     """Return the run of a point as a record keeps it: a long one thinned, so that a batch fits into memory.
 
@@ -107,6 +115,8 @@ def solved(
         Function that is called with the time (s) that the run has reached.
     keep
         What the record keeps of it, one of `subslide.keys.kept.WORDS`.
+    keeper
+        What keeps the state of a long run, and gives it back.
 
     Returns
     -------
@@ -116,7 +126,7 @@ def solved(
     from subslide import solver
     from subslide.records import thinning
 
-    return thinning.thinned(solver.solve(point, threads=threads, progress=progress))
+    return thinning.thinned(solver.solve(point, threads=threads, progress=progress, keeper=keeper))
 
 
 def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callable[[str], object]) -> None:
@@ -141,6 +151,7 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
     ConfigError
         If the file is no batch file, see `study.batches.read_batch`, or an output is none, see `study.outputs.check`.
     """
+    from subslide.solver.checkpoint import Keeper
     from subslide.study.locks import at_work
 
     points, keep = read_batch(spec)
@@ -150,11 +161,16 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
         outputs.check(ledger, [*inputs, output, checksums.beside(output)], "--ledger", ".json")
     results: list[Run] = []
     with at_work(Path(os.path.realpath(output)).parent):
+        keeper = Keeper(Path(output).parent / UNFINISHED, Path(output).stem, points)
         try:
             for point in points:
-                results.append(solved(point, threads, keep=keep))
+                before = keeper.take(point)
+                results.append(before or solved(point, threads, keep=keep, keeper=keeper))
                 say(summary(results[-1]))
+                if not before:
+                    keeper.add(results[-1])
             keep_batch(results, output, ledger, keep)
+            keeper.forget()
         except BaseException as error:
             if not (ledger and results):
                 raise

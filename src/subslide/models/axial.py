@@ -137,6 +137,22 @@ class Axial(Model):
         """Centres (n) of the cells over R."""
         return self._x
 
+    def state(self) -> dict[str, np.ndarray]:
+        """Return the cells, their edges, what the ends of the grid are, and from when a sea has an end."""
+        sea = {
+            "edges": self.grid.edges,
+            "walls": np.array(self.walls),
+            "free_until": np.array(self.free_until),
+        }
+        return super().state() | sea
+
+    def resume(self, state: dict[str, np.ndarray]) -> None:
+        """Put a state back, on a sea as long as it was."""
+        self.walls = int(state["walls"][0]), int(state["walls"][1])
+        self.free_until = float(state["free_until"])
+        self._lay([state[name] for name in self.variables], self.grid._replace(edges=state["edges"]))
+        self.watch = self._watch(self.watch.least_grains, self.watch.still1, self.watch.still2)
+
     def make_room(self, now: float) -> None:
         """Give the sea as many still cells more at each open end, or make that an end like the paper's.
 

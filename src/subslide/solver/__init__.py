@@ -11,6 +11,7 @@ from subslide.models.limits import LARGEST_BOX
 from subslide.naming import STATUSES
 from subslide.points import Point
 from subslide.solver.answer import Snapshot, describe, make_run, room_for_waves, taken
+from subslide.solver.checkpoint import Keeper, Saved
 from subslide.solver.loop import advance_to, start_threads, warm_up
 from subslide.solver.run import Run
 from subslide.study import choice
@@ -36,7 +37,12 @@ ENDED = {
 assert set(ENDED.values()) <= set(STATUSES)
 
 
-def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | None = None) -> Run:
+def solve(
+    point: Point,
+    threads: int = 1,
+    progress: Callable[[float], object] | None = None,
+    keeper: Keeper | None = None,
+) -> Run:
     """Return the `Run` of a point; a numerical failure is a status, never an exception.
 
     Parameters
@@ -47,6 +53,8 @@ def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | 
         Cores for one plane run; no result depends on it.
     progress
         Function that is called now and then with the time in s that the run has reached.
+    keeper
+        Where the state of a long run is saved, and was.
 
     Returns
     -------
@@ -60,13 +68,14 @@ def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | 
     """
     check_point(point)
     start_threads(threads)
-    box = first_box(point)
+    saved = keeper.under_way(point) if keeper else None
+    box = saved.box if saved else first_box(point)
     while True:
-        run = attempt(point, box, progress)
+        run = attempt(point, box, progress, keeper, saved)
         grown = math.ceil(box * GROWTH)
         if run.status != "left_domain" or choice.at_sea(point) or grown > LARGEST_BOX * point.half_cells:
             return run
-        box = grown
+        box, saved = grown, None
 
 
 def first_box(point: Point) -> int:
@@ -82,7 +91,13 @@ def first_box(point: Point) -> int:
     return math.ceil(min(max(box, room), LARGEST_BOX * box + SPARE))
 
 
-def attempt(point: Point, box: int, progress: Callable[[float], object] | None) -> Run:
+def attempt(
+    point: Point,
+    box: int,
+    progress: Callable[[float], object] | None,
+    keeper: Keeper | None = None,
+    saved: Saved | None = None,
+) -> Run:
     """Return the run in a box of a size, its surface watched within the smallest box.
 
     Parameters
@@ -91,8 +106,10 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
         The run.
     box
         Cells from the axis to the end of the box.
-    progress
+    progress, keeper
         As for `solve`.
+    saved
+        State in that box to go on from.
 
     Returns
     -------
@@ -111,11 +128,21 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
     chunks: list[np.ndarray] = []
     snapshots: list[Snapshot] = []
     wall = 0.0
-    for stop in sorted({*times, end}):
+    if saved:
+        model.resume(saved.model)
+        clock, wall, chunks, snapshots = saved.clock, saved.wall, [saved.samples], saved.snapshots
+
+    def look(seconds: float) -> None:
+        """Show how far the run has come, and save it if that is due."""
+        if progress:
+            progress(clock[k.NOW] * time_scale)
+        if keeper and keeper.due:
+            sampled = np.concatenate(chunks)
+            keeper.save(point, Saved(box, model.state(), clock, sampled, snapshots, wall + seconds))
+
+    for stop in sorted({*times, end})[len(snapshots) :]:
         clock[k.STOP] = stop / time_scale
-        outcome, seconds = advance_to(
-            model, clock, chunks, lambda now: progress and progress(now * time_scale)
-        )
+        outcome, seconds = advance_to(model, clock, chunks, look)
         wall += seconds
         reached = clock[k.NOW] >= clock[k.STOP]
         if reached and stop in times:

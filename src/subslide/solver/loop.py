@@ -95,7 +95,8 @@ def advance_to(
     chunks
         Arrays (samples, columns), which get those of this loop.
     look
-        Function that is called with the scaled time now and then.
+        Function that is called now and then with the seconds that this loop has taken, when model, clock and samples
+        are what it can go on from.
 
     Returns
     -------
@@ -113,7 +114,7 @@ def advance_to(
         if chunks:
             chunks[-1] = chunks[-1][:-1]
         chunks.append(track.samples[: track.counters[k.SAMPLES]])
-        look(clock[k.NOW])
+        look(wall)
         if track.counters[k.OUTCOME] == k.NO_ROOM:
             model.make_room(float(clock[k.NOW]))
         elif track.counters[k.OUTCOME] != k.FULL:
