@@ -39,6 +39,7 @@ def made_up_run(point: Point, steps: int = 20, grown: int = 0, **changes) -> Sim
         dx=point.dx,
         x=x,
         width=None,
+        scalars=None,
         time=time,
         x_front=front,
         max_abs_eta=height * np.sin(np.pi * time),

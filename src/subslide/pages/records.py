@@ -1,6 +1,7 @@
 """The page on records, docs/records.md: statuses, and every variable with its dimensions and unit."""
 
 from subslide import naming
+from subslide.records import scalars
 
 PATH = "docs/records.md"
 INTRODUCTION = """# Records
@@ -50,7 +51,7 @@ def variables() -> str:
         "Series, a sample each time step": naming.SERIES,
         "Profiles along the x axis, at each snapshot": naming.PROFILES,
         "Fields, at each snapshot (`fields: true`, in the plane)": naming.FIELDS_2D,
-        "A value a run": naming.SCALARS,
+        "A value a run": naming.SCALARS | scalars.NAMES,
         "Coordinates": naming.COORDINATES,
     }
     for title, table in parts.items():

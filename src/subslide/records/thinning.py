@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from subslide import naming
+from subslide.records import scalars
 
 if TYPE_CHECKING:
     from subslide.solver.run import Run
@@ -23,6 +24,7 @@ def thinned(run: "Run") -> "Run":
     Kept are the first HEAD and, of every block of steps after them, the samples with the least and the largest value
     of each series and the first one; so no extremum of any series is lost or moved.
     """
+    scalars.of(run)  # of all samples
     count = len(run.time)
     if count <= LONGEST:
         return run

@@ -7,6 +7,7 @@ import numpy as np
 
 from subslide import naming, points
 from subslide.keys.entries import ENTRIES
+from subslide.records import scalars
 
 if TYPE_CHECKING:
     from subslide.solver.run import Run
@@ -97,6 +98,11 @@ def _scalars(runs: list["Run"]) -> dict[str, Variable]:
     record["status"].attrs["comment"] = "; ".join(f"{k}: {v}" for k, v in naming.STATUSES.items())
     for name in naming.SCALARS:
         record[name] = _variable(name, _column(runs, name))
+    made = [scalars.of(run) for run in runs]
+    for name, meant in scalars.NAMES.items():
+        values = np.array([of_run[name] for of_run in made], float)
+        attrs = {"units": meant.unit, "long_name": meant.long_name, "_FillValue": np.nan}
+        record[name] = Variable(meant.dims, values, attrs)
     return record
 
 

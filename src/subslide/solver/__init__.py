@@ -11,7 +11,7 @@ from subslide.models.limits import LARGEST_BOX
 from subslide.naming import STATUSES
 from subslide.points import Point
 from subslide.solver.answer import Snapshot, describe, make_run, room_for_waves, taken
-from subslide.solver.loop import advance_to, start_threads, warm_up
+from subslide.solver.loop import Samples, advance_to, start_threads, warm_up
 from subslide.solver.run import Run
 from subslide.study import choice
 from subslide.study.checking import check_point
@@ -23,7 +23,8 @@ GROWTH = 1.5
 """A box whose edge the front reaches grows by GROWTH, up to LARGEST_BOX times the paper's; the sea has no such edge."""
 
 SPARE = 32
-"""Cells that a sea starts with beyond where its waves may come: steps look some vectors ahead."""
+"""Cells that a sea starts with beyond where its waves may come: steps look some vectors ahead. Seas have whole
+multiples of it, so that many runs share their layout."""
 
 ENDED = {
     k.AT_REST: "ok",
@@ -79,7 +80,7 @@ def first_box(point: Point) -> int:
         return box
     last = max(point.profile_times, default=0.0) if point.t_end is None else point.t_end
     room = 1.1 * point.wave_reach(last) / point.scaled_dx + SPARE
-    return math.ceil(min(max(box, room), LARGEST_BOX * box + SPARE))
+    return math.ceil(min(max(box, math.ceil(room / SPARE) * SPARE), LARGEST_BOX * box + SPARE))
 
 
 def attempt(point: Point, box: int, progress: Callable[[float], object] | None) -> Run:
@@ -108,14 +109,12 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
     if point.t_end is None:
         clock[k.REST_FROM] = max(times[-1] / time_scale if times else 0.0, np.nextafter(0.0, 1.0))
     warm_up(model)
-    chunks: list[np.ndarray] = []
+    kept = Samples()
     snapshots: list[Snapshot] = []
     wall = 0.0
     for stop in sorted({*times, end}):
         clock[k.STOP] = stop / time_scale
-        outcome, seconds = advance_to(
-            model, clock, chunks, lambda now: progress and progress(now * time_scale)
-        )
+        outcome, seconds = advance_to(model, clock, kept, lambda now: progress and progress(now * time_scale))
         wall += seconds
         reached = clock[k.NOW] >= clock[k.STOP]
         if reached and stop in times:
@@ -125,7 +124,9 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
     if not (reached and stop in times):  # else the end has its snapshot
         last = float(clock[k.NOW] * time_scale)
         snapshots.append(taken(last, model, point.fields))
-    sampled = np.concatenate(chunks)
+    sampled = kept.taken
     status = ENDED.get(outcome, "ok" if point.t_end is not None else "not_at_rest")
     detail = "" if status == "ok" else describe(status, model, sampled, time_scale)
-    return make_run(point, model, sampled, snapshots, (status, detail), wall, clock, room)
+    run = make_run(point, model, sampled, snapshots, (status, detail), wall, clock, room)
+    model.release()
+    return run
