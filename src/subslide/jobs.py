@@ -92,12 +92,15 @@ def run(point: Point, threads: int, output: str) -> str:
     return f"{summary(result)} -> {output}"
 
 
-def solved(point: Point, threads: int, progress: Callable[[float], object] | None = None) -> "Run":
-    """Return the run of a point as a record keeps it: a long one thinned, so that a batch fits into memory."""
+def solved(
+    point: Point, threads: int, progress: Callable[[float], object] | None = None, keep: str = "all"
+) -> "Run":
+    """Return the run of a point as a record keeps it, so that a batch fits into memory: see `records.thinning.kept`."""
     from subslide import solver
     from subslide.records import thinning
 
-    return thinning.thinned(solver.solve(point, threads=threads, progress=progress))
+    run = solver.solve(point, threads=threads, progress=progress, profiles=keep == "all")
+    return thinning.kept(run, keep)
 
 
 def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callable[[str], object]) -> None:

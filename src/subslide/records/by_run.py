@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from subslide.files import RecordError
-from subslide.records import netcdf
+from subslide.records import netcdf, thinning
 from subslide.records.variables import Variable
 
 
@@ -49,15 +49,22 @@ def read(path: Path, ids: Collection[str], names: Collection[str]) -> dict[str, 
     RecordError
         If the record is missing or damaged, or lacks a run.
     """
-    variables, _ = netcdf.read(path)
+    variables, attrs = netcdf.read(path)
     places = dict(zip(ids, _places(path, variables, ids), strict=True))
     wanted = {name: variables[name] for name in names if name in variables}
-    return {name: OfRun(path, _of_run(variables, wanted, places[name])) for name in ids}
+    runs: dict[str, dict[str, Any]] = {
+        name: OfRun(path, _of_run(variables, wanted, places[name])) for name in ids
+    }
+    if attrs.get("keep") == "summary":
+        for name, one in runs.items():
+            time = _of_run(variables, {"time": variables["time"]}, places[name])["time"]
+            one.update({key: thinning.filled(time, one[key]) for key in thinning.SUMMARY if key in one})
+    return runs
 
 
 def _of_run(variables: dict[str, Variable], wanted: dict[str, Variable], place: int) -> dict[str, Any]:
     """Return the wanted variables of the run at a place of a record, without padding, as copies."""
-    cells = np.isfinite(variables["h2"].values[place, 0])
+    cells = np.isfinite(variables["h2"].values[place, 0]) if "h2" in variables else slice(None)
     kept = {
         "step": slice(int(np.isfinite(variables["time"].values[place]).sum())),
         "snapshot": slice(int(np.isfinite(variables["snapshot_time"].values[place]).sum())),

@@ -8,6 +8,7 @@ import numpy as np
 
 from subslide.files import RecordError
 from subslide.keys.schema import ConfigError
+from subslide.records import thinning
 from subslide.results.listing import AGAIN
 
 if TYPE_CHECKING:
@@ -49,12 +50,16 @@ def trimmed(data: "xr.Dataset", name: str) -> "xr.Dataset":
         raise RecordError(f"{data.encoding.get('source', 'a record')}: the record lacks the run {name}; {AGAIN}")
     one = data.isel(run=int(places[0]))
     one = one.isel(step=slice(int(np.isfinite(one["time"].values).sum())))
+    one = one.isel(snapshot=slice(int(np.isfinite(one["snapshot_time"].values).sum())))
     if along := [dim for dim in ("x", "y", "cell") if dim in one.dims]:
-        snapshots = int(np.isfinite(one["snapshot_time"].values).sum())
         inside = np.isfinite(one["h2"].isel(snapshot=0).values)
-        one = one.isel(snapshot=slice(snapshots), **dict.fromkeys(along, inside))
+        one = one.isel(dict.fromkeys(along, inside))
     if "cell" in one.dims and str(one["grid"].values) == "uniform":
         one = one.assign_coords(x=one["x"].variable[0]).swap_dims(cell="x").drop_vars("cell_width")
+    if one.attrs.get("keep") == "summary":
+        one = one.load()
+        time = one["time"].values
+        one = one.assign({name: one[name].copy(data=thinning.filled(time, one[name].values)) for name in thinning.SUMMARY})
     return one
 
 

@@ -37,7 +37,12 @@ ENDED = {
 assert set(ENDED.values()) <= set(STATUSES)
 
 
-def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | None = None) -> Run:
+def solve(
+    point: Point,
+    threads: int = 1,
+    progress: Callable[[float], object] | None = None,
+    profiles: bool = True,
+) -> Run:
     """Return the `Run` of a point; a numerical failure is a status, never an exception.
 
     Parameters
@@ -48,6 +53,8 @@ def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | 
         Cores for one plane run; no result depends on it.
     progress
         Function that is called now and then with the time in s that the run has reached.
+    profiles
+        Whether profiles and fields are kept; all else has the same bits without.
 
     Returns
     -------
@@ -63,7 +70,7 @@ def solve(point: Point, threads: int = 1, progress: Callable[[float], object] | 
     start_threads(threads)
     box = first_box(point)
     while True:
-        run = attempt(point, box, progress)
+        run = attempt(point, box, progress, profiles)
         grown = math.ceil(box * GROWTH)
         if run.status != "left_domain" or choice.at_sea(point) or grown > LARGEST_BOX * point.half_cells:
             return run
@@ -83,7 +90,7 @@ def first_box(point: Point) -> int:
     return math.ceil(min(max(box, math.ceil(room / SPARE) * SPARE), LARGEST_BOX * box + SPARE))
 
 
-def attempt(point: Point, box: int, progress: Callable[[float], object] | None) -> Run:
+def attempt(point: Point, box: int, progress: Callable[[float], object] | None, profiles: bool = True) -> Run:
     """Return the run in a box of a size, its surface watched within the smallest box.
 
     Parameters
@@ -92,7 +99,7 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
         The run.
     box
         Cells from the axis to the end of the box.
-    progress
+    progress, profiles
         As for `solve`.
 
     Returns
@@ -118,12 +125,12 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None) 
         wall += seconds
         reached = clock[k.NOW] >= clock[k.STOP]
         if reached and stop in times:
-            snapshots.append(taken(stop, model, point.fields))
+            snapshots.append(taken(stop, model, profiles, point.fields))
         if outcome != k.REACHED:
             break
     if not (reached and stop in times):  # else the end has its snapshot
         last = float(clock[k.NOW] * time_scale)
-        snapshots.append(taken(last, model, point.fields))
+        snapshots.append(taken(last, model, profiles, point.fields))
     sampled = kept.taken
     status = ENDED.get(outcome, "ok" if point.t_end is not None else "not_at_rest")
     detail = "" if status == "ok" else describe(status, model, sampled, time_scale)

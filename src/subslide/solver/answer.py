@@ -36,7 +36,7 @@ class Snapshot(NamedTuple):
     fields: dict[str, np.ndarray] | None
 
 
-def taken(time: float, model: Model, fields: bool) -> Snapshot:
+def taken(time: float, model: Model, profiles: bool, fields: bool) -> Snapshot:
     """Return the snapshot of a model as it is.
 
     Parameters
@@ -45,14 +45,16 @@ def taken(time: float, model: Model, fields: bool) -> Snapshot:
         Time (s) that it has reached.
     model
         What is run.
-    fields
-        Whether fields are kept.
+    profiles, fields
+        Whether profiles are kept, and fields with them.
 
     Returns
     -------
     Snapshot
         Copies of its profiles and fields.
     """
+    if not profiles:
+        return Snapshot(time, np.empty(0), None, {name: np.empty(0) for name in ("h2", "eta")}, None)
     return Snapshot(time, model.x, model.width, model.profile(), model.fields() if fields else None)
 
 
@@ -194,7 +196,7 @@ def shared(model: Model, snapshots: list[Snapshot]) -> tuple[np.ndarray, list[di
         Scaled centres (nx), or of each snapshot (snapshots, nx) where cells move, and the profiles by name, each (nx),
         of each snapshot.
     """
-    if model.width is not None:
+    if model.width is not None or not snapshots[0].x.size:
         return np.stack([snapshot.x for snapshot in snapshots]), [one.profile for one in snapshots]
     x = model.x
     kept = np.abs(x) < model.half_width
