@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from subslide import jobs
 from subslide.points import Point
-from subslide.records import netcdf, reductions, scalars, thinning
+from subslide.records import course, netcdf, scalars, thinning
 from subslide.results import open_record, trimmed
 from subslide.study.config import make_point
 
@@ -52,7 +52,7 @@ def test_lines_between_kept_samples_pass_all_others(samples, smooth):
     time = np.cumsum(steps)
     values = np.cumsum(values * steps) if smooth else values
     kept, short = np.zeros((1, len(time)), bool), values[None].copy()
-    reductions.summarise(short, time, thinning.SHARE, thinning.LEAST, kept)
+    course.summarise(short, time, thinning.SHARE, thinning.LEAST, kept)
     stays = kept[0]
     assert stays[[0, -1]].all()
     passed = np.interp(time, time[stays], short[0, stays].astype(np.float32))
@@ -64,7 +64,7 @@ def test_gaps_and_equal_times_lose_nothing():
     time = np.array([0, 1, 2, 2, 3, 4, 5, 6, 7.0])
     values = np.array([[np.nan, np.nan, 1, 2, 3, 4, 5, np.inf, 7]])
     kept = np.zeros((1, 9), bool)
-    reductions.summarise(values, time, 1e-3, 1e-6, kept)
+    course.summarise(values, time, 1e-3, 1e-6, kept)
     assert kept[0].tolist() == [True, True, True, True, False, False, True, True, True]
     back = thinning.filled(time[kept[0]], values[0, kept[0]])
     np.testing.assert_allclose(back, [np.nan, np.nan, 1, 2, 5, np.nan, 7], rtol=1e-3)

@@ -9,9 +9,9 @@ import numpy as np
 import subslide
 from subslide import points
 from subslide.records import thinning
+from subslide.records.variables import ASKED_ALONE, Variable
 
 if TYPE_CHECKING:
-    from subslide.records.variables import Variable
     from subslide.solver.run import Run
 
 STATED = (
@@ -30,11 +30,8 @@ STATED = (
 )
 """Variables that a record of a single run also states as attributes."""
 
-ASKED_ALONE = ("model", "grid", "snapshot_times", "fields")
-"""Keys of a run that are no variables: what came of them is told by others."""
 
-
-def attributes(runs: list["Run"], variables: dict[str, "Variable"], keep: str) -> dict[str, Any]:
+def attributes(runs: list["Run"], variables: dict[str, Variable], keep: str) -> dict[str, Any]:
     """Return the global attributes of a record: conventions, versions, configuration and, for one run, its outcome.
 
     Parameters

@@ -64,14 +64,14 @@ def kept(run: "Run", keep: str) -> "Run":
 
 def _summary(run: "Run") -> "Run":
     """Return a run with the series SUMMARY alone, thinned; it is changed."""
-    from subslide.records import reductions
+    from subslide.records import course
 
     series = np.vstack([getattr(run, name) for name in SUMMARY])
     marks = np.zeros(series.shape, bool)
     # samples at the times of snapshots, which are off by round-off
     places = np.searchsorted(run.time, run.snapshot_time * (1 - 1e-12))
     marks[:, places[places < len(run.time)]] = True
-    reductions.summarise(series, run.time, SHARE, LEAST, marks)
+    course.summarise(series, run.time, SHARE, LEAST, marks)
     stays = marks.any(axis=0)
     fronts, short = len(run.x_front), series[:, stays].astype(np.float32)
     named = dict(zip(SUMMARY, (short[:fronts], *short[fronts:]), strict=True))

@@ -7,7 +7,7 @@ import numpy as np
 
 from subslide import naming, points
 from subslide.keys.entries import ENTRIES
-from subslide.records import provenance, scalars
+from subslide.records import scalars
 
 if TYPE_CHECKING:
     from subslide.solver.run import Run
@@ -21,7 +21,10 @@ class Variable(NamedTuple):
     attrs: dict[str, Any]
 
 
-PARAMETERS = tuple(key for key in points.RUN_KEYS if key not in ("scene_options", *provenance.ASKED_ALONE))
+ASKED_ALONE = ("model", "grid", "snapshot_times", "fields")
+"""Keys of a run that are no variables: what came of them is told by others."""
+
+PARAMETERS = tuple(key for key in points.RUN_KEYS if key not in ("scene_options", *ASKED_ALONE))
 """Keys of a run that are variables as they are; what the others asked for is told by other variables."""
 
 WORDS = {

@@ -10,9 +10,10 @@ from subslide.models.build import build
 from subslide.models.limits import LARGEST_BOX
 from subslide.naming import STATUSES
 from subslide.points import Point
-from subslide.solver.answer import Snapshot, describe, make_run, room_for_waves, taken
+from subslide.solver.answer import describe, make_run, room_for_waves
 from subslide.solver.loop import Samples, advance_to, start_threads, warm_up
 from subslide.solver.run import Run
+from subslide.solver.snapshots import Snapshot, taken
 from subslide.study import choice
 from subslide.study.checking import check_point
 
