@@ -3,6 +3,7 @@
 import hashlib
 import json
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, make_dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -31,6 +32,8 @@ RUN_KEYS = schema.run_keys()
 
 FLOATS = tuple(key for key in RUN_KEYS if schema.is_real(ENTRIES[key]))
 INTEGERS = tuple(key for key in RUN_KEYS if schema.is_integer(ENTRIES[key]))
+
+REAL = frozenset(FLOATS)
 
 STANDS_FOR = {key: ENTRIES[key]["default"] for key in RUN_KEYS if "anyOf" in ENTRIES[key]}
 """Word, such as 'rest', that None stands for in a point, of each key that takes one beside numbers."""
@@ -106,6 +109,11 @@ class Point(Values):
     def id(self) -> str:
         """Name of the point: 'p' and 12 hex digits, the same for equal values however they were written."""
         return "p" + hashlib.sha256(canonical(self).encode()).hexdigest()[:12]
+
+    @property
+    def has_weightless_water(self) -> bool:
+        """Whether the water has no weight beside the grains, so that one layer is the whole model."""
+        return self.r == 0
 
     @property
     def column_height(self) -> float:
@@ -237,16 +245,32 @@ def canonical(point: Point) -> str:
     return json.dumps(values, separators=(",", ":"), sort_keys=True)
 
 
-def to_dict(point: Point) -> dict[str, Any]:
-    """Return the values of a point by key, as a configuration would state them; numbers in one format."""
-    values = {key: getattr(point, key) for key in RUN_KEYS}
-    for key in FLOATS:
-        if values[key] is not None:
-            values[key] = float(values[key]) + 0.0  # -0.0 becomes 0.0
-    values["scene_options"] = dict(point.scene_options)
-    if point.snapshot_times is not None:
-        values["snapshot_times"] = [float(t) + 0.0 for t in point.snapshot_times]
-    return {key: STANDS_FOR[key] if value is None else value for key, value in values.items()}
+def to_dict(point: Point, keys: Sequence[str] = RUN_KEYS) -> dict[str, Any]:
+    """Return the values of a point by key, as a configuration would state them; numbers in one format.
+
+    Parameters
+    ----------
+    point
+        The point.
+    keys
+        Keys whose values are wanted.
+
+    Returns
+    -------
+    dict
+        Value by key.
+    """
+    values = {key: getattr(point, key) for key in keys}
+    for key, value in values.items():
+        if value is None:
+            values[key] = STANDS_FOR[key]
+        elif key in REAL:
+            values[key] = float(value) + 0.0  # -0.0 becomes 0.0
+        elif key == "scene_options":
+            values[key] = dict(value)
+        elif key == "snapshot_times":
+            values[key] = [float(t) + 0.0 for t in value]
+    return values
 
 
 def options_text(point: Point) -> str:
@@ -256,14 +280,30 @@ def options_text(point: Point) -> str:
 
 def from_dict(values: dict[str, Any]) -> Point:
     """Return the point of checked values by key; the inverse of `to_dict`, with defaults for what is left out."""
-    values = {key: None if value == STANDS_FOR.get(key) else value for key, value in values.items()}
-    for key in FLOATS:
-        if values.get(key) is not None:
-            values[key] = float(values[key])
-    for key in INTEGERS:
-        if key in values:
-            values[key] = int(values[key])
-    values["scene_options"] = tuple(sorted(values.get("scene_options", {}).items()))
-    if values.get("snapshot_times") is not None:
-        values["snapshot_times"] = tuple(sorted({float(t) for t in values["snapshot_times"]}))
-    return Point(**values)
+    return Point(**{key: held(key, value) for key, value in values.items()})
+
+
+def held(key: str, value: Any) -> Any:
+    """Return the checked value of a key as a point holds it.
+
+    Parameters
+    ----------
+    key
+        One of `RUN_KEYS`.
+    value
+        Its value as a configuration states it.
+
+    Returns
+    -------
+    object
+        The value, in one number format; None for a word that stands beside numbers.
+    """
+    if value is None or value == STANDS_FOR.get(key):
+        return None
+    if key == "scene_options":
+        return tuple(sorted(value.items()))
+    if key == "snapshot_times":
+        return tuple(sorted({float(t) for t in value}))
+    if key in FLOATS:
+        return float(value)
+    return int(value) if key in INTEGERS else value

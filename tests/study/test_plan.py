@@ -10,6 +10,7 @@ import pytest
 import subslide
 from subslide import catalogue, checksums, scenes
 from subslide.points import Point
+from subslide.results import Results
 from subslide.study import config, plan, staging
 
 
@@ -31,6 +32,9 @@ def solved(solve_study, make_run, tmp_path):
 def to_solve(planned):
     """Values of a_H of each batch that a plan solves, by the batch's name."""
     return {name: [p.a_H for p in batch.points] for name, batch in planned.batches.items() if batch.text}
+
+
+TABLES = {"runs": ["runs.csv"]}
 
 
 def contents(folder):
@@ -61,6 +65,26 @@ def test_what_was_never_solved_is_planned_anew(solved):
     wide = plan.plan(study(a_H=[n / 7 for n in range(1, 600)]), folder)
     assert len(to_solve(wide)) > 1
     assert to_solve(plan.plan(study(a_H=[1, 3]), folder)) == {"0002": [3]}
+
+
+def test_a_poorer_batch_is_solved_again_only_if_the_configuration_says_so_outright(solved, monkeypatch):
+    folder = solved(a_H=[1, 2], keep="series")
+    assert json.loads((folder / "batches/0001.json").read_text())["keep"] == "series"
+    for word in ("auto", "summary", "series"):
+        assert to_solve(plan.plan(study(a_H=[1, 2], keep=word), folder)) == {}
+    planned = plan.plan(study(a_H=[1, 2], keep="all"), folder)
+    assert to_solve(planned) == {"0001": [1, 2]}
+    assert planned.faults == ["1 batches keep less of each run than is asked for: they are solved again"]
+    assert json.loads(planned.batches["0001"].text)["keep"] == "all"
+    monkeypatch.setattr(config, "MOST_KEPT_WHOLE", 2)
+    assert [study(a_H=axis).keep for axis in ([1, 2], [1, 2, 3])] == ["all", "summary"]
+
+
+def test_points_file_states_what_was_asked(solved):
+    folder = solved(a_H=[1, 2], figures="none")
+    asked = {"study": "t", "model": "radial", "cells": 40, "a_H": [1, 2], "figures": "none"}
+    assert Results(folder).asked == asked
+    assert json.loads((folder / "points.json").read_text())["keep"] == "all"
 
 
 def test_points_file_states_runs_in_order_and_companions_apart(solved):
@@ -189,14 +213,14 @@ def test_a_point_in_two_batches_belongs_to_the_one_that_is_whole(solved):
 def test_texts_for_jobs_are_named_by_their_content(solved, tmp_path):
     """A plan that is made while another one runs changes none of its texts."""
     home = tmp_path / "cache"
-    first = staging.stage(plan.plan(study(a_H=[1, 2]), tmp_path / "none"), home)
+    first = staging.stage(plan.plan(study(a_H=[1, 2]), tmp_path / "none"), home, TABLES, [])
     before = contents(home)
-    second = staging.stage(plan.plan(study(a_H=[3]), tmp_path / "none"), home)
+    second = staging.stage(plan.plan(study(a_H=[3]), tmp_path / "none"), home, TABLES, [])
     assert before.items() <= contents(home).items()
     assert set(first.specs.values()).isdisjoint(second.specs.values())
-    assert staging.staged(home, first.key) == first
+    assert staging.staged(first.path) == first
     first.specs["0001"].write_text("{")  # a full disk, say
-    staging.stage(plan.plan(study(a_H=[1, 2]), tmp_path / "none"), home)
+    staging.stage(plan.plan(study(a_H=[1, 2]), tmp_path / "none"), home, TABLES, [])
     assert contents(home).items() >= before.items()
 
 

@@ -36,7 +36,7 @@ def write(path: Path | str, runs: list["Run"], keep: str = "all") -> None:
     runs
         Results of `solver.solve`, as `records.thinning.kept` gives them.
     keep
-        How much of them that is.
+        What is kept of each, one of `subslide.keys.kept.WORDS`, which the record states.
 
     Raises
     ------

@@ -4,11 +4,12 @@ import json
 import math
 from collections.abc import Iterable
 from pathlib import Path
+from typing import NamedTuple
 
-from subslide.keys import words
+from subslide.keys import kept, words
 from subslide.keys.schema import ConfigError
-from subslide.points import Point, to_dict
-from subslide.study import checking, choice, cost
+from subslide.points import Point
+from subslide.study import choice, cost, rows
 from subslide.study.yaml_files import read_text
 
 SECONDS = (2.0, 60.0)
@@ -24,14 +25,43 @@ MOST_BATCH_BYTES = 100_000_000
 """Size from which on a file is no batch."""
 
 
-def spec_text(points: Iterable[Point]) -> str:
-    """Return the text of the file that states a batch, from its points in order."""
-    rows = [{"id": point.id, **to_dict(point)} for point in points]
-    return json.dumps({"points": rows}, indent=1, allow_nan=False) + "\n"
+class Spec(NamedTuple):
+    """What a batch file states: points in order, and what is kept of each run."""
+
+    points: list[Point]
+    keep: str
 
 
-def read_batch(spec: Path | str) -> list[Point]:
-    """Return the points of a batch file.
+def spec_text(points: Iterable[Point], keep: str = "all") -> str:
+    """Return the text of the file that states a batch.
+
+    Parameters
+    ----------
+    points
+        Its points, in order.
+    keep
+        What is kept of each run, one of `subslide.keys.kept.WORDS`.
+
+    Returns
+    -------
+    str
+        JSON.
+    """
+    return rows.text({"keep": keep}, {"points": (({"id": point.id}, point) for point in points)})
+
+
+def read_batch(spec: Path | str) -> Spec:
+    """Return what a batch file states; one of before there was a choice keeps all.
+
+    Parameters
+    ----------
+    spec
+        Path of the file.
+
+    Returns
+    -------
+    Spec
+        Its points, each checked, and what is kept of each run.
 
     Raises
     ------
@@ -42,34 +72,39 @@ def read_batch(spec: Path | str) -> list[Point]:
     text = read_text(spec, MOST_BATCH_BYTES)
     try:
         batch = json.loads(text)
-        rows, kernels = batch["points"], batch.get("kernels")  # which the version before this one stated
+        listed, kernels = batch["points"], batch.get("kernels")  # which an older version stated
+        keep = batch.get("keep", "all")
     except KeyError as error:
         raise ConfigError(f"{spec}: not a batch file: the key {error} is missing") from None
     except RecursionError:
         raise ConfigError(f"{spec}: not a batch file: nested too deep") from None
     except (ValueError, TypeError, AttributeError) as error:
         raise ConfigError(f"{spec}: not a batch file: {error}") from None
-    if not (isinstance(rows, list) and rows):
-        raise ConfigError(f"{spec}: points: {words.show(rows)} is not allowed; allowed: a list of points")
+    if not (isinstance(listed, list) and listed):
+        raise ConfigError(f"{spec}: points: {words.show(listed)} is not allowed; allowed: a list of points")
     if kernels is not None and kernels not in choice.all_kernels():
         hint = words.closest(kernels, choice.all_kernels())
         raise ConfigError(f"{spec}: kernels: {words.show(kernels)}: there are none of that name{hint}")
-    points = []
-    for number, row in enumerate(rows):
+    if keep not in kept.WORDS:
+        raise ConfigError(
+            f"{spec}: keep: {words.show(keep)} is not allowed; allowed: {', '.join(kept.WORDS)}"
+        )
+    points: dict[str, Point] = {}
+    try:
+        reader = rows.Reader(batch, check=True)
+    except ConfigError as error:
+        raise ConfigError(f"{spec}: {error}") from None
+    for number, row in enumerate(listed):
         try:
-            point = checking.point_of_row(row)
+            point = reader.point(row)
         except ConfigError as error:
             raise ConfigError(f"{spec}: points[{number}]: {error}") from None
-        if point.id != row["id"]:
-            raise ConfigError(
-                f"{spec}: the values of {words.show(row['id'])} belong to {point.id}; was the file edited?"
-            )
-        if point in points:
+        if point.id in points:
             raise ConfigError(
                 f"{spec}: points[{number}]: {point.id} stands there twice; allowed: each point once"
             )
-        points.append(point)
-    return points
+        points[point.id] = point
+    return Spec(list(points.values()), keep)
 
 
 def split(points: list[Point]) -> list[list[Point]]:
