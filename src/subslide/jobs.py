@@ -103,7 +103,7 @@ def solved(
     keep: str = "all",
     keeper: "Keeper | None" = None,
 ) -> "Run":
-    """Return the run of a point as a record keeps it: a long one thinned, so that a batch fits into memory.
+    """Return the run of a point as a record keeps it, so that a batch fits into memory.
 
     Parameters
     ----------
@@ -126,7 +126,8 @@ def solved(
     from subslide import solver
     from subslide.records import thinning
 
-    return thinning.thinned(solver.solve(point, threads=threads, progress=progress, keeper=keeper))
+    run = solver.solve(point, threads=threads, progress=progress, keeper=keeper, profiles=keep == "all")
+    return thinning.kept(run, keep)
 
 
 def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callable[[str], object]) -> None:
