@@ -8,6 +8,7 @@ import itertools
 import os
 import signal
 import sys
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,7 +18,7 @@ from subslide.files import Stopped, write_text
 from subslide.keys import plain, schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
-from subslide.study import config, outputs, scene_options
+from subslide.study import config, cost, outputs, pace, scene_options
 from subslide.study.batches import read_batch, spec_text
 from subslide.study.yaml_files import read_yaml
 
@@ -161,17 +162,23 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
     if ledger is not None:
         outputs.check(ledger, [*inputs, output, checksums.beside(output)], "--ledger", ".json")
     results: list[Run] = []
+    begun, resumed = 0.0, False
     with at_work(Path(os.path.realpath(output)).parent):
         keeper = Keeper(Path(output).parent / UNFINISHED, Path(output).stem, points)
         try:
             for point in points:
                 before = keeper.take(point)
+                resumed = resumed or before is not None
                 results.append(before or solved(point, threads, keep=keep, keeper=keeper))
                 say(summary(results[-1]))
                 if not before:
                     keeper.add(results[-1])
+                begun = begun or time.process_time()  # the first run waits for kernels
             keep_batch(results, output, ledger, keep)
             keeper.forget()
+            if threads == 1 and not resumed:
+                estimated = sum(cost.seconds(point, keep) for point in points[1:])
+                pace.learn(pace.kind(points[0], keep), time.process_time() - begun, estimated)
         except BaseException as error:
             if not (ledger and results):
                 raise
@@ -286,8 +293,6 @@ def _value_of_text(text: Any, name: str) -> Any:
 
 def _progress(point: Point) -> Callable[[float], None]:
     """Return a function that shows on the terminal the time that a run has reached, once it has taken a while."""
-    import time
-
     start = last = time.monotonic()
     aim = "until rest" if point.t_end is None else f"of {point.t_end:.4g} s"
 

@@ -10,7 +10,7 @@ from subslide.keys import schema, words
 from subslide.keys.designs import MOST_POINTS
 from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS, Point
-from subslide.study import choice, cost, designs, expansion, forms, whole_study
+from subslide.study import choice, designs, expansion, forms, limits, whole_study
 from subslide.study.designs import Design
 from subslide.study.expansion import Grid
 from subslide.study.yaml_files import read_yaml
@@ -81,6 +81,12 @@ class Study:
         return "all" if len(self.solved) <= MOST_KEPT_WHOLE else "summary"
 
     @property
+    def batch_seconds(self) -> float:
+        """Seconds that a job shall work for."""
+        default: float = schema.properties()["batch_seconds"]["default"]
+        return float(self.asked.get("batch_seconds") or default)
+
+    @property
     def keep_at_least(self) -> str:
         """What records must keep because the configuration says so outright; '' if it does not."""
         word = self.asked.get("keep", "auto")
@@ -136,7 +142,7 @@ def make_study(values: dict) -> Study:
     study = Study(whole["study"], figures, tuple(runs.values()), bands, dict(values), tuple(listed))
     alone = sum(not choice.is_fitted(point) for point in study.points) if bands else 0
     _check_count(len(runs) + alone * len(COARSENING), ", companions for bands among them")
-    cost.check(study.solved, whole, "the study")
+    limits.check(study.solved, whole, "the study", study.keep)
     return study
 
 
@@ -180,7 +186,7 @@ def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
             value = value[0]
         single[key] = schema.checked(key, value, names.get(key, key))
     point = resolve(single, names)[1]
-    cost.check([point], whole, "the run")
+    limits.check([point], whole, "the run")
     return point
 
 
