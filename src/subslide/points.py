@@ -3,7 +3,7 @@
 import functools
 import hashlib
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, make_dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -111,6 +111,11 @@ class Point(Values):
         point = cls.__new__(cls)
         object.__setattr__(point, "__dict__", mapping)
         return point
+
+    @property
+    def chosen(self) -> Mapping[str, Any]:
+        """Values by key, defaults left out or not, and what is remembered of the point by other names."""
+        return vars(self)
 
     @functools.cached_property
     def id(self) -> str:
@@ -240,7 +245,7 @@ def canonical(point: Point) -> str:
 
     A file that its scene reads is known by its content, which is one of the options, and not by its path.
     """
-    return values.text(vars(point), catalogue.options_that_read(point.scene))
+    return values.text(point.chosen, catalogue.options_that_read(point.scene))
 
 
 def to_dict(point: Point, keys: Sequence[str] = RUN_KEYS) -> dict[str, Any]:

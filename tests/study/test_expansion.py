@@ -139,6 +139,14 @@ def test_answers_are_worked_out_once_for_points_that_share_what_is_read():
     assert len(asked) == 6
 
 
+def test_an_answer_that_hangs_on_the_id_or_on_all_values_is_not_taken_for_that_of_another_point():
+    names, texts = Remembered(lambda point: point.id), Remembered(to_dict)
+    for point in (Point(), Point(r=0.1), Point(scene="slab", t_end=1.0)):
+        for _ in range(2):
+            assert names(point) == point.id
+            assert texts(point) == to_dict(point)
+
+
 LARGE = """
 import json, resource, time
 from subslide.points import Point, to_dict

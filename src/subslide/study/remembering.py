@@ -74,10 +74,19 @@ class _Reader:
         self.point = point
         self.values: dict[str, Any] = {}
 
+    @property
+    def chosen(self) -> dict[str, Any]:
+        """Every value by key, noted."""
+        return {key: getattr(self, key) for key in RUN_KEYS}
+
     def __getattr__(self, name: str) -> Any:
         """Return a value, noted, or what the class of points makes of values."""
         if name in READ:
             self.values[name] = getattr(self.point, name)
             return self.values[name]
         made: Any = getattr(Point, name)
-        return made.__get__(self) if isinstance(made, property) else MethodType(made, self)
+        return (
+            made.__get__(self)
+            if isinstance(made, property | functools.cached_property)
+            else MethodType(made, self)
+        )
