@@ -100,9 +100,29 @@ def solved(
     point: Point,
     threads: int,
     progress: Callable[[float], object] | None = None,
+    keep: str = "all",
     keeper: "Keeper | None" = None,
 ) -> "Run":
-    """Return the run of a point as a record keeps it: a long one thinned, so that a batch fits into memory."""
+    """Return the run of a point as a record keeps it: a long one thinned, so that a batch fits into memory.
+
+    Parameters
+    ----------
+    point
+        The run.
+    threads
+        Cores for it.
+    progress
+        Function that is called with the time (s) that the run has reached.
+    keep
+        What the record keeps of it, one of `subslide.keys.kept.WORDS`.
+    keeper
+        Where the state of a long run is saved, and was.
+
+    Returns
+    -------
+    Run
+        The run.
+    """
     from subslide import solver
     from subslide.records import thinning
 
@@ -134,28 +154,28 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
     from subslide.solver.checkpoint import Keeper
     from subslide.study.locks import at_work
 
-    points = read_batch(spec)
+    points, keep = read_batch(spec)
     inputs = {spec, *(file for point in points for file in scenes.files(point))}
     outputs.check_sealed(output, inputs)
     if ledger is not None:
         outputs.check(ledger, [*inputs, output, checksums.beside(output)], "--ledger", ".json")
     results: list[Run] = []
     with at_work(Path(os.path.realpath(output)).parent):
-        keeper = Keeper(Path(output).parent / UNFINISHED, Path(output).stem, points)
+        keeper = Keeper(Path(output).parent / UNFINISHED, Path(output).stem, points, keep)
         try:
             for point in points:
                 before = keeper.take(point)
-                results.append(before or solved(point, threads, keeper=keeper))
+                results.append(before or solved(point, threads, keep=keep, keeper=keeper))
                 say(summary(results[-1]))
                 if not before:
                     keeper.add(results[-1])
-            keep_batch(results, output, ledger)
+            keep_batch(results, output, ledger, keep)
             keeper.forget()
         except BaseException as error:
             if not (ledger and results):
                 raise
             part, record = unused_part(ledger, output)
-            keep_batch(results, str(record), str(part))
+            keep_batch(results, str(record), str(part), keep)
             said = f"stopped: the {len(results)} runs that were solved are kept as batch {part.stem}"
             if isinstance(error, KeyboardInterrupt | Stopped):
                 raise Stopped(getattr(error, "signal", signal.SIGINT), said) from None
@@ -164,13 +184,23 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
     say(f"{len(results)} runs -> {output}")
 
 
-def keep_batch(results: list["Run"], output: str, ledger: str | None) -> None:
-    """Write the record of runs, its checksum and, if it is given, the ledger's file, each whole or not at all."""
+def keep_batch(results: list["Run"], output: str, ledger: str | None, keep: str = "all") -> None:
+    """Write the record of runs, its checksum and, if it is given, the ledger's file, each whole or not at all.
+
+    Parameters
+    ----------
+    results
+        Runs, as `solved` gives them.
+    output, ledger
+        Paths of the record and of the ledger's file.
+    keep
+        What is kept of each run, one of `subslide.keys.kept.WORDS`.
+    """
     from subslide.records import netcdf as records
 
-    text = spec_text(result.point for result in results)
+    text = spec_text([result.point for result in results], keep)
     checksums.beside(output).unlink(missing_ok=True)
-    records.write(output, results)
+    records.write(output, results, keep)
     checksums.seal(output, batch=checksums.text_hash(text), sources=source_hash())
     if ledger:
         write_text(ledger, text)

@@ -108,6 +108,11 @@ class Point(Values):
         return "p" + hashlib.sha256(canonical(self).encode()).hexdigest()[:12]
 
     @property
+    def has_weightless_water(self) -> bool:
+        """Whether the water has no weight beside the grains, so that one layer is the whole model."""
+        return self.r == 0
+
+    @property
     def column_height(self) -> float:
         """Height H2 (m) of the column."""
         return self.a_2 * self.radius
@@ -256,14 +261,30 @@ def options_text(point: Point) -> str:
 
 def from_dict(values: dict[str, Any]) -> Point:
     """Return the point of checked values by key; the inverse of `to_dict`, with defaults for what is left out."""
-    values = {key: None if value == STANDS_FOR.get(key) else value for key, value in values.items()}
-    for key in FLOATS:
-        if values.get(key) is not None:
-            values[key] = float(values[key])
-    for key in INTEGERS:
-        if key in values:
-            values[key] = int(values[key])
-    values["scene_options"] = tuple(sorted(values.get("scene_options", {}).items()))
-    if values.get("snapshot_times") is not None:
-        values["snapshot_times"] = tuple(sorted({float(t) for t in values["snapshot_times"]}))
-    return Point(**values)
+    return Point(**{key: held(key, value) for key, value in values.items()})
+
+
+def held(key: str, value: Any) -> Any:
+    """Return the checked value of a key as a point holds it.
+
+    Parameters
+    ----------
+    key
+        One of `RUN_KEYS`.
+    value
+        Its value as a configuration states it.
+
+    Returns
+    -------
+    object
+        The value, in one number format; None for a word that stands beside numbers.
+    """
+    if value is None or value == STANDS_FOR.get(key):
+        return None
+    if key == "scene_options":
+        return tuple(sorted(value.items()))
+    if key == "snapshot_times":
+        return tuple(sorted({float(t) for t in value}))
+    if key in FLOATS:
+        return float(value)
+    return int(value) if key in INTEGERS else value

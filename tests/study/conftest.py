@@ -87,6 +87,7 @@ def solve_study():
                     solve(list(batch.points)),
                     str(plan.record_path(folder, name)),
                     str(folder / "batches" / f"{name}.json"),
+                    study.keep,
                 )
         write_text(folder / "points.json", planned.points_text)
         seal(folder / "points.json")

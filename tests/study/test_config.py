@@ -245,7 +245,7 @@ def test_numbers_that_yaml_reads_as_text_are_numbers(write_yaml):
 
 def test_defaults_of_points_are_those_of_the_schema():
     assert config.make_point({}) == Point()
-    assert set(schema.properties()) == {*schema.with_role("study", "preset"), *RUN_KEYS}
+    assert set(schema.properties()) == {*schema.with_role("study", "preset", "design"), *RUN_KEYS}
 
 
 def test_every_key_is_described():

@@ -10,6 +10,7 @@ import pytest
 import subslide
 from subslide import catalogue, checksums, scenes
 from subslide.points import Point
+from subslide.results import Results
 from subslide.study import config, plan, staging
 
 
@@ -61,6 +62,26 @@ def test_what_was_never_solved_is_planned_anew(solved):
     wide = plan.plan(study(a_H=[n / 7 for n in range(1, 600)]), folder)
     assert len(to_solve(wide)) > 1
     assert to_solve(plan.plan(study(a_H=[1, 3]), folder)) == {"0002": [3]}
+
+
+def test_a_poorer_batch_is_solved_again_only_if_the_configuration_says_so_outright(solved, monkeypatch):
+    folder = solved(a_H=[1, 2], keep="series")
+    assert json.loads((folder / "batches/0001.json").read_text())["keep"] == "series"
+    for word in ("auto", "summary", "series"):
+        assert to_solve(plan.plan(study(a_H=[1, 2], keep=word), folder)) == {}
+    planned = plan.plan(study(a_H=[1, 2], keep="all"), folder)
+    assert to_solve(planned) == {"0001": [1, 2]}
+    assert planned.faults == ["1 batches keep less of each run than is asked for: they are solved again"]
+    assert json.loads(planned.batches["0001"].text)["keep"] == "all"
+    monkeypatch.setattr(config, "MOST_KEPT_WHOLE", 2)
+    assert [study(a_H=axis).keep for axis in ([1, 2], [1, 2, 3])] == ["all", "summary"]
+
+
+def test_points_file_states_what_was_asked(solved):
+    folder = solved(a_H=[1, 2], figures="none")
+    asked = {"study": "t", "model": "radial", "cells": 40, "a_H": [1, 2], "figures": "none"}
+    assert Results(folder).asked == asked
+    assert json.loads((folder / "points.json").read_text())["keep"] == "all"
 
 
 def test_points_file_states_runs_in_order_and_companions_apart(solved):

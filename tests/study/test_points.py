@@ -113,7 +113,9 @@ def test_cell_size_follows_the_radius():
 
 def test_a_point_is_made_of_the_keys_of_a_run_and_cannot_be_changed():
     assert tuple(points.to_dict(Point())) == points.RUN_KEYS
-    assert set(schema.properties()) - set(points.RUN_KEYS) == set(schema.with_role("study", "preset"))
+    assert set(schema.properties()) - set(points.RUN_KEYS) == set(
+        schema.with_role("study", "preset", "design")
+    )
     assert points.to_dict(Point()) == {key: schema.properties()[key]["default"] for key in points.RUN_KEYS}
     assert pickle.loads(pickle.dumps(Point(r=0.1))) == Point(r=0.1)
     assert len({Point(), Point(r=0.4), Point(r=0.1)}) == 2

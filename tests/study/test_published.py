@@ -33,12 +33,33 @@ WRONG = {
     "a key of a whole study in a case": {"cases": [{"bands": True}]},
     "a wrong value in a case": {"cases": [{}, {"delta": [30, 95]}]},
     "no cases": {"cases": []},
+    "a form of another name": {"a_H": {"linspce": [0, 1, 3]}},
+    "a form with a number missing": {"a_H": {"linspace": [0, 1]}},
+    "a form for words": {"scheme": {"linspace": [0, 1, 3]}},
+    "a design of another name": {"design": {"sobl": {"points": 4, "over": {"r": [0, 0.8]}}}},
+    "two designs in one mapping": {"design": {"zip": {"a_H": [1]}, "file": "x.csv"}},
+    "a design without points": {"design": {"sobol": {"over": {"r": [0, 0.8]}}}},
+    "a design over cells": {"design": {"sobol": {"points": 4, "over": {"cells": [100, 200]}}}},
+    "a distribution of three numbers": {"design": {"sobol": {"points": 4, "over": {"r": [0, 0.1, 0.8]}}}},
+    "a value out of range in a zip": {"design": {"zip": {"r": [0, 1.5]}}},
 }
 RIGHT = (
     {},
     {"a_H": 1, "r": [0, 0.4], "cells": [100, 200.0], "t_end": ["rest", 0.5], "snapshot_times": [0, 0.1]},
     {"scene": "ellipse", "scene_options": {"elongation": [1, 2], "angle": 30}},
     {"numerics": ["paper", "resolved"], "bands": True, "figures": ["fig06_fronts"]},
+    {"a_H": {"linspace": [0, 1, 3]}, "cells": {"geomspace": [100, 400, 3]}, "r": {"arange": [0, 0.4, 0.1]}},
+    {
+        "design": {"zip": {"r": [0, 0.4], "m": [1, 2]}},
+        "cases": [{}, {"design": [{"zip": {"scheme": ["hll"]}}]}],
+    },
+    {
+        "design": {
+            "saltelli": {"points": 2, "seed": 1, "scramblings": 2, "over": {"m": [1, 2], "r": [0, 0.8]}}
+        }
+    },
+    {"design": {"sobol": {"points": 2, "over": {"r": {"truncated_normal": [0, 1, 0, 0.8]}}}}},
+    {"design": [], "scene": "ellipse", "scene_options": {"elongation": {"linspace": [1, 2, 3]}}},
     {"order": [1, 2], "cases": [{"a_H": [1, 2]}, {"numerics": "paper", "friction_in_viscosity": False}]},
 )
 

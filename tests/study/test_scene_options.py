@@ -176,7 +176,7 @@ def test_a_changed_raster_is_noticed_by_its_batch(tmp_path):
     )
     spec = tmp_path / "b.json"
     spec.write_text(spec_text(study.points))
-    assert [p.id for p in read_batch(spec)] == [study.points[0].id]
+    assert [p.id for p in read_batch(spec).points] == [study.points[0].id]
     write(0.02)
     with pytest.raises(ConfigError, match="has changed"):
         read_batch(spec)

@@ -18,12 +18,12 @@ from collections.abc import Callable
 from typing import Any
 
 from subslide import catalogue
-from subslide.keys import names
+from subslide.keys import designs, kept, names
 
 Entry = dict[str, Any]
 
-STUDY, PRESET = "study", "preset"
-"""Roles of keys of a whole study, and of the one that sets several others."""
+STUDY, PRESET, DESIGN = "study", "preset", "design"
+"""Roles of keys of a whole study, of the one that sets several others, and of the one that joins several."""
 
 PHYSICS, SCENE, METHOD, OUTPUT = "physics", "scene", "method", "output"
 """Roles of keys of a run: column and material; initial state, box and end; how it is solved; what is kept."""
@@ -124,6 +124,8 @@ ENTRIES: dict[str, Entry] = {
         "allowed": "a list of mappings of keys of a run",
         "default": [{}],
     },
+    "keep": {"role": STUDY, **kept.ENTRY},
+    "design": {"role": DESIGN, **designs.ENTRY},
     "max_core_hours": limit("hours on one core, as estimated, that a study may take", 100, "h", 1e-3, 1e7),
     "max_memory": limit("memory, as estimated, that the largest run may take", 8, "GB", 0.1, 1e5),
     "max_disk": limit("disk, as estimated, that records and tables may take", 20, "GB", 1e-3, 1e6),

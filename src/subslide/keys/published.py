@@ -8,7 +8,7 @@ import json
 from typing import Any
 
 from subslide import catalogue
-from subslide.keys import schema
+from subslide.keys import designs, schema
 from subslide.keys.entries import ENTRIES, Entry
 from subslide.keys.words import unit_of
 
@@ -34,13 +34,17 @@ def study_schema(options: dict[str, dict[str, Entry]]) -> dict[str, Any]:
     keys = {key: _property(about, schema.is_axis(key)) for key, about in ENTRIES.items()}
     keys["figures"]["anyOf"][1]["items"] = {"enum": catalogue.names("figures")}
     keys["scene_options"] |= {"properties": _options(options), "additionalProperties": False}
-    case_keys = (*schema.with_role("preset"), *schema.run_keys())
+    axes = [key for key in (*schema.with_role("preset"), *schema.run_keys()) if schema.is_axis(key)]
+    numbers = tuple(key for key in axes if schema.is_real(ENTRIES[key]))
+    keys["design"] |= designs.design_schema({key: keys[key]["anyOf"][1] for key in axes}, numbers)
+    del keys["design"]["type"]
+    case_keys = (*schema.with_role("preset", "design"), *schema.run_keys())
     keys["cases"]["items"] = _mapping({key: {"$ref": f"#/properties/{key}"} for key in case_keys})
     about = {
         "$schema": DIALECT,
         "title": "A study of subslide",
         "description": "Keys of a study. A key of a run may be a list where it is an axis: the study is the product of"
-        " its axes.",
+        " its axes and designs.",
     }
     return {**about, **_mapping(keys), "required": ["study"]}
 
@@ -65,7 +69,9 @@ def _property(about: Entry, axis: bool) -> dict[str, Any]:
     """Return the schema of a key by its entry: a value or, if it is an axis, a list of at least one too."""
     value = {word: rule for word, rule in about.items() if word not in OURS}
     if axis:
-        value = {"anyOf": [value, {"type": "array", "items": value, "minItems": 1}]}
+        listed = [{"type": "array", "items": value, "minItems": 1}]
+        forms = [designs.form_schema(value)] if schema.is_real(about) or schema.is_integer(about) else []
+        value = {"anyOf": [value, *listed, *forms]}
     unit = f" ({unit_of(about)})" if unit_of(about) else ""
     told = {"description": about["description"] + unit}
     if "default" in about:

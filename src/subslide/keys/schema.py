@@ -1,12 +1,13 @@
 """Values checked by the entries of their keys, and the lists of keys that follow from the entries."""
 
+import contextlib
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from subslide.keys.entries import ENTRIES, Entry
-from subslide.keys.words import refusal
+from subslide.keys.words import refusal, show
 
 _checks: dict[int, tuple[Entry, Callable]] = {}
 """Compiled check of each entry, by the entry's place in memory."""
@@ -14,6 +15,46 @@ _checks: dict[int, tuple[Entry, Callable]] = {}
 
 class ConfigError(ValueError):
     """Bad input: one line that names the key, its value and what is allowed."""
+
+
+def refused(name: str, value: Any, allowed: str) -> ConfigError:
+    """Return the error on a value that is not allowed.
+
+    Parameters
+    ----------
+    name
+        What the message calls its key.
+    value
+        What was given.
+    allowed
+        What is allowed, and a hint at it.
+
+    Returns
+    -------
+    ConfigError
+        To be raised.
+    """
+    return ConfigError(f"{name}: {show(value)} is not allowed; allowed: {allowed}")
+
+
+@contextlib.contextmanager
+def placed(place: str) -> Iterator[None]:
+    """Put the place of a key before the message, which begins with the key, of a ConfigError raised in this context.
+
+    Parameters
+    ----------
+    place
+        What stands before the message.
+
+    Yields
+    ------
+    None
+        Nothing.
+    """
+    try:
+        yield
+    except ConfigError as error:
+        raise ConfigError(f"{place}{error}") from None
 
 
 def properties() -> dict[str, Entry]:

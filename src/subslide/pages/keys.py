@@ -34,6 +34,17 @@ delta: [25, 30, 35]
 model: radial
 ```
 
+A list of numbers may be `{linspace: [first, last, count]}`, `{geomspace: [first, last, count]}` or
+`{arange: [first, last, step]}`. Points whose values are chosen together (side by side, from a CSV file, a Latin
+hypercube, a Sobol' sequence, Saltelli's blocks) are a `design`, one more axis of the product: docs/designs.md.
+
+```yaml
+study: sampled
+r: {linspace: [0, 0.8, 5]}
+design:
+  sobol: {points: 64, seed: 1, over: {a_H: [0.5, 10], m: {log_uniform: [0.4, 2]}}}
+```
+
 A study that is no single product is a list of `cases`, each the product of its own lists; the keys beside `cases` are
 the defaults of all, and a case's own key wins. Messages count the cases from 0.
 
@@ -57,7 +68,7 @@ What a study costs is estimated before it starts: `subslide check` says it, and 
 end when friction stops its grains, and a box to grow as far as they may go; a run whose step collapses takes longer.
 `subslide run` has these limits too, as keys of its file and as options. Of the other keys of a study it checks
 `study`, `figures` and `bands`, whose values say nothing of one run, says that `bands: true` is left out, and refuses
-`cases`.
+`cases` and `design`.
 
 `bands: true` solves each run on two coarser grids as well, and estimates from the three what the finest leaves
 uncertain; see `bands.csv` in docs/tables.md. Adding or removing it computes the coarser runs alone, or nothing. Runs on

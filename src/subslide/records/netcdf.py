@@ -22,7 +22,7 @@ COMPRESSED_FROM = 1 << 16
 """Bytes from which a variable is compressed: below it, the gain is less than what chunks cost."""
 
 
-def write(path: Path | str, runs: list["Run"]) -> None:
+def write(path: Path | str, runs: list["Run"], keep: str = "all") -> None:
     """Write the record of runs, read back and verified.
 
     Parameters
@@ -31,6 +31,8 @@ def write(path: Path | str, runs: list["Run"]) -> None:
         File, which is written whole or not at all.
     runs
         Results of `solver.solve`, thinned (`records.thinning`).
+    keep
+        What is kept of each, one of `subslide.keys.kept.WORDS`, which the record states.
 
     Raises
     ------
@@ -38,7 +40,7 @@ def write(path: Path | str, runs: list["Run"]) -> None:
         If what was read back is not what was written.
     """
     variables = layout.variables(runs)
-    attrs = provenance.attributes(runs, variables)
+    attrs = {**provenance.attributes(runs, variables), "keep": keep}
     attrs[CHECKSUM] = digest(variables, attrs)
     with replacing(path) as temporary:
         _store(temporary, variables, attrs)

@@ -54,6 +54,16 @@ class Results:
         """Return whether the study was made with `bands: true`."""
         return self._listed.has_bands
 
+    @property
+    def asked(self) -> dict[str, Any]:
+        """Return the study's configuration by key, as its file states it; empty for one of the version before."""
+        return self._listed.asked
+
+    @property
+    def designs(self) -> tuple[dict[str, Any], ...]:
+        """Return what points.json says of each Saltelli design: see `study.config.Study.designs`."""
+        return self._listed.designs
+
     @functools.cached_property
     def _listed(self) -> Listing:
         """Return what points.json states."""

@@ -38,11 +38,13 @@ class Companion(NamedTuple):
 
 
 class Listing(NamedTuple):
-    """The runs of a study, in the order of the tables, their companions, and whether the study has bands."""
+    """The runs of a study, in the order of the tables, their companions, whether it has bands, what was asked, designs."""
 
     runs: tuple[StudyRun, ...]
     companions: tuple[Companion, ...]
     has_bands: bool
+    asked: dict[str, Any]
+    designs: tuple[dict[str, Any], ...] = ()
 
 
 def listed(folder: Path) -> Listing:
@@ -78,8 +80,11 @@ def listed(folder: Path) -> Listing:
             Companion(row["id"], row["of"], row["role"], row["point"], row["batch"])
             for row in rows.get("companions", ())
         )
+        asked = dict(index.get("asked", {}))
         if not runs:
             raise ValueError("there are no points")
+        designs = tuple(index.get("designs", ()))
+        _check_designs(designs, {run.id for run in runs})
         _once([run.id for run in runs])
         _once([f"{one.role} of {one.of}" for one in others])
     except BROKEN as error:
@@ -87,7 +92,7 @@ def listed(folder: Path) -> Listing:
         raise RecordError(f"{path} is damaged or not of this version ({what}); {AGAIN}") from None
     if fault and checksums.beside(path).exists():
         raise RecordError(f"{fault}; {AGAIN}")
-    return Listing(runs, others, "companions" in sections)
+    return Listing(runs, others, "companions" in sections, asked, designs)
 
 
 def verify(path: Path) -> None:
@@ -120,6 +125,17 @@ def _once(names: list[str]) -> None:
     """Raise a ValueError if a name is there twice."""
     if len(set(names)) < len(names):
         raise ValueError(f"{Counter(names).most_common(1)[0][0]} is there twice")
+
+
+def _check_designs(designs: tuple[dict[str, Any], ...], ids: set[str]) -> None:
+    """Raise a ValueError if a design names a run that is none, or is no array of runs in blocks."""
+    for design in designs:
+        spec, inputs = design["spec"], len(design["names"])
+        blocks = [block for scrambling in design["ids"] for block in scrambling]
+        if len(blocks) != spec["scramblings"] * (2 + 2 * inputs):
+            raise ValueError(f"a design has {len(blocks)} blocks")
+        if any(len(block) != spec["points"] or not ids.issuperset(block) for block in blocks):
+            raise ValueError("a block of a design names other runs")
 
 
 def _row(row: dict, check: bool) -> dict[str, Any]:

@@ -4,8 +4,9 @@ import json
 import math
 from collections.abc import Iterable
 from pathlib import Path
+from typing import NamedTuple
 
-from subslide.keys import words
+from subslide.keys import kept, words
 from subslide.keys.schema import ConfigError
 from subslide.points import Point, to_dict
 from subslide.study import checking, choice, cost
@@ -24,14 +25,44 @@ MOST_BATCH_BYTES = 100_000_000
 """Size from which on a file is no batch."""
 
 
-def spec_text(points: Iterable[Point]) -> str:
-    """Return the text of the file that states a batch, from its points in order."""
+class Spec(NamedTuple):
+    """What a batch file states: points in order, and what is kept of each run."""
+
+    points: list[Point]
+    keep: str
+
+
+def spec_text(points: Iterable[Point], keep: str = "all") -> str:
+    """Return the text of the file that states a batch.
+
+    Parameters
+    ----------
+    points
+        Its points, in order.
+    keep
+        What is kept of each run, one of `subslide.keys.kept.WORDS`.
+
+    Returns
+    -------
+    str
+        JSON.
+    """
     rows = [{"id": point.id, **to_dict(point)} for point in points]
-    return json.dumps({"points": rows}, indent=1, allow_nan=False) + "\n"
+    return json.dumps({"keep": keep, "points": rows}, indent=1, allow_nan=False) + "\n"
 
 
-def read_batch(spec: Path | str) -> list[Point]:
-    """Return the points of a batch file.
+def read_batch(spec: Path | str) -> Spec:
+    """Return what a batch file states; one of before there was a choice keeps all.
+
+    Parameters
+    ----------
+    spec
+        Path of the file.
+
+    Returns
+    -------
+    Spec
+        Its points, each checked, and what is kept of each run.
 
     Raises
     ------
@@ -42,7 +73,8 @@ def read_batch(spec: Path | str) -> list[Point]:
     text = read_text(spec, MOST_BATCH_BYTES)
     try:
         batch = json.loads(text)
-        rows, kernels = batch["points"], batch.get("kernels")  # which the version before this one stated
+        rows, kernels = batch["points"], batch.get("kernels")  # which an older version stated
+        keep = batch.get("keep", "all")
     except KeyError as error:
         raise ConfigError(f"{spec}: not a batch file: the key {error} is missing") from None
     except RecursionError:
@@ -54,7 +86,11 @@ def read_batch(spec: Path | str) -> list[Point]:
     if kernels is not None and kernels not in choice.all_kernels():
         hint = words.closest(kernels, choice.all_kernels())
         raise ConfigError(f"{spec}: kernels: {words.show(kernels)}: there are none of that name{hint}")
-    points = []
+    if keep not in kept.WORDS:
+        raise ConfigError(
+            f"{spec}: keep: {words.show(keep)} is not allowed; allowed: {', '.join(kept.WORDS)}"
+        )
+    points: list[Point] = []
     for number, row in enumerate(rows):
         try:
             point = checking.point_of_row(row)
@@ -69,7 +105,7 @@ def read_batch(spec: Path | str) -> list[Point]:
                 f"{spec}: points[{number}]: {point.id} stands there twice; allowed: each point once"
             )
         points.append(point)
-    return points
+    return Spec(points, keep)
 
 
 def split(points: list[Point]) -> list[list[Point]]:

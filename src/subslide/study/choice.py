@@ -104,7 +104,7 @@ def unfit(point: Point, geometry: str) -> str:
 def exact_models(point: Point) -> tuple[str, ...]:
     """Return the models that give the answer for the point's scene and densities, the cheapest first."""
     symmetry = scenes.symmetry(point)
-    alone = ("one-layer",) if symmetry in ("round", "line") and point.r == 0 else ()
+    alone = ("one-layer",) if symmetry in ("round", "line") and point.has_weightless_water else ()
     return alone + EXACT[symmetry]
 
 

@@ -1,22 +1,25 @@
 """From a YAML file to a study: checked values, and the table of its points."""
 
-import contextlib
-import itertools
-import math
-from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from collections.abc import Collection
+from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from subslide.keys import schema, words
+from subslide.keys.designs import MOST_POINTS
 from subslide.keys.schema import ConfigError
-from subslide.points import RUN_KEYS, Point, from_dict
-from subslide.study import checking, choice, cost, scene_options, together, whole_study
+from subslide.points import RUN_KEYS, Point
+from subslide.study import choice, cost, designs, expansion, forms, whole_study
+from subslide.study.designs import Design
+from subslide.study.expansion import Grid
 from subslide.study.yaml_files import read_yaml
 
-MOST_POINTS = 200_000
+MOST_KEPT_WHOLE = 2_000
+"""Solved points up to which `keep: auto` keeps all of each run."""
 FEWEST_CELLS = 10
-CASE_KEYS = ("numerics", *RUN_KEYS)
+AXES = ("numerics", *RUN_KEYS)
+CASE_KEYS = ("design", *AXES)
 COARSENING = {"cells/2": 2, "cells/4": 4}
 """Role of each companion of a run in a study with bands, and how many times fewer cells it has."""
 
@@ -35,12 +38,19 @@ class Study:
         Label of the numerics, and point, of each run, without repeats, in the order of the tables.
     bands
         Whether each run has bands, for which those on uniform grids have companions on coarser ones.
+    asked
+        Configuration by key, as its file states it, checked.
+    designs
+        Of each Saltelli design, and combination of the axes beside it: ``kind``, ``spec`` as checked, ``others`` (value
+        by key of those axes), ``names`` of its inputs, and ``ids`` (scramblings, blocks, points) of its runs.
     """
 
     name: str
     figures: tuple[str, ...]
     runs: tuple[tuple[str, Point], ...]
     bands: bool = False
+    asked: dict[str, Any] = field(default_factory=dict)
+    designs: tuple[dict[str, Any], ...] = ()
 
     @property
     def points(self) -> tuple[Point, ...]:
@@ -57,11 +67,24 @@ class Study:
             for role, ratio in COARSENING.items()
         )
 
-    @property
+    @cached_property
     def solved(self) -> tuple[Point, ...]:
         """Points to solve, without repeats: the runs, then those companions that are not runs as well."""
         companions = (point for *_, point in self.companions)
         return tuple({point.id: point for point in (*self.points, *companions)}.values())
+
+    @property
+    def keep(self) -> str:
+        """What records keep of each run, one of `subslide.keys.kept.WORDS`; `auto` goes by the number of points."""
+        if self.keep_at_least:
+            return self.keep_at_least
+        return "all" if len(self.solved) <= MOST_KEPT_WHOLE else "summary"
+
+    @property
+    def keep_at_least(self) -> str:
+        """What records must keep because the configuration says so outright; '' if it does not."""
+        word = self.asked.get("keep", "auto")
+        return "" if word == "auto" else str(word)
 
 
 def read_study(path: Path | str) -> Study:
@@ -93,14 +116,20 @@ def make_study(values: dict) -> Study:
     whole = whole_study.values_of(values)
     bands = whole["bands"]
     grids = _grids(values)
-    _check_count(sum(map(_count, (axes for _, axes in grids))))
+    _check_count(sum(grid.size for grid in grids))
     runs: dict[str, tuple[str, Point]] = {}
-    for place, axes in grids:
-        with _named(place):
-            for label, point in _product(axes, bands):
+    listed: list[dict[str, Any]] = []
+    for grid in grids:
+        ids = []
+        with schema.placed(grid.place):
+            grid.check()
+            for label, point in expansion.points(grid):
+                _check_coarsening(point, bands)
+                ids.append(point.id)
                 runs.setdefault(point.id, (label, point))
+        listed += expansion.members(grid, ids)
     figures = whole_study.figures_of(whole["figures"], [point for _, point in runs.values()])
-    study = Study(whole["study"], figures, tuple(runs.values()), bands)
+    study = Study(whole["study"], figures, tuple(runs.values()), bands, dict(values), tuple(listed))
     alone = sum(not choice.is_fitted(point) for point in study.points) if bands else 0
     _check_count(len(runs) + alone * len(COARSENING), ", companions for bands among them")
     cost.check(study.solved, whole, "the study")
@@ -129,16 +158,17 @@ def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
         If anything is wrong: one line that names the key, its value and what is allowed.
     """
     _check_keys(values)
-    if "cases" in values:
-        raise ConfigError(
-            f"cases: {words.show(values['cases'])} is not allowed for one run; allowed: only in a study"
-        )
+    for key in ("cases", "design"):
+        if key in values:
+            shown = f"{(names or {}).get(key, key)}: {words.show(values[key])}"
+            raise ConfigError(f"{shown} is not allowed for one run; allowed: only in a study")
     names = names or {}
     whole = whole_study.values_of(values, names)
     single = {}
     for key, value in values.items():
         if key not in CASE_KEYS:
             continue
+        value = _listed(key, value, names.get(key, key))
         if schema.is_axis(key) and isinstance(value, list):
             if len(value) != 1:
                 shown = f"{names.get(key, key)}: {words.show(value)}"
@@ -172,45 +202,39 @@ def resolve(values: dict, names: dict[str, str] | None = None) -> tuple[str, Poi
     ConfigError
         If values do not go with one another: one line.
     """
-    values = dict(values)
-    name = (names or {}).get("scene_options", "scene_options")
-    scene, given = values.get("scene", Point.scene), values.get("scene_options", {})
-    values["scene_options"] = scene_options.checked(scene, given, name)
-    label = values.pop("numerics", schema.properties()["numerics"]["default"])
-    point = from_dict({**schema.properties()["numerics"]["presets"][label], **values})
-    together.check(point)
-    checking.mark(point)
-    return label, point
+    maker = expansion.Maker(values, (names or {}).get("scene_options", "scene_options"))
+    return maker.point(expansion.as_held(values))
 
 
-def _grids(values: dict) -> list[tuple[str, dict[str, Any]]]:
-    """Return the place in messages, and the axes by key, of each case; without `cases` of the one grid, placeless."""
-    shared = _axes(values)
+def _grids(values: dict) -> list[Grid]:
+    """Return the grid of each case; without `cases` the one of the file, placeless."""
+    axes, chosen = _axes(values), _designs(values)
     if "cases" not in values:
-        return [("", shared)]
+        return [Grid("", axes, chosen)]
     grids = []
     for n, case in enumerate(schema.checked("cases", values["cases"])):
         place = f"cases[{n}]"
         if not isinstance(case, dict):
             shown = words.show(case)
             raise ConfigError(f"{place}: {shown} is not allowed; allowed: a mapping of keys of a run")
-        with _named(f"{place}."):
+        with schema.placed(f"{place}."):
             _check_keys(case, CASE_KEYS)
-            axes = {**shared, **_axes(case)}
-        grids.append((f"{place}.", {key: axes[key] for key in CASE_KEYS if key in axes}))
+            of_case = _designs(case)
+            given = {name for design in of_case for name in design.names}
+            joined = {key: axis for key, axis in axes.items() if key not in given} | _axes(case)
+        ordered = {key: joined[key] for key in AXES if key in joined}
+        grids.append(Grid(f"{place}.", ordered, of_case if "design" in case else chosen))
     return grids
+
+
+def _designs(values: dict) -> tuple[Design, ...]:
+    """Return the designs, checked, that a mapping states."""
+    return tuple(designs.checked(values["design"])) if "design" in values else ()
 
 
 def _axes(values: dict) -> dict[str, Any]:
     """Return the values along its axis, checked, of each key of a run that a mapping has; scene options as given."""
-    return {key: _axis(key, values[key]) for key in CASE_KEYS if key in values}
-
-
-def _count(axes: dict[str, Any]) -> int:
-    """Return the number of combinations of axes, none of which is made."""
-    return math.prod(
-        scene_options.count(values) if key == "scene_options" else len(values) for key, values in axes.items()
-    )
+    return {key: _axis(key, values[key]) for key in AXES if key in values}
 
 
 def _check_count(count: int, among: str = "") -> None:
@@ -219,31 +243,14 @@ def _check_count(count: int, among: str = "") -> None:
         raise ConfigError(f"the grid has {count} points{among}; allowed: at most {MOST_POINTS}")
 
 
-def _product(axes: dict[str, Any], bands: bool) -> Iterator[tuple[str, Point]]:
-    """Give the label of the numerics, and the point, of each combination of axes.
-
-    bands: cells must halve twice, but of a fitted grid, which has no companions.
-    """
-    if "scene_options" in axes:
-        axes = {**axes, "scene_options": scene_options.along_axes(axes["scene_options"])}
-    for combination in itertools.product(*axes.values()):
-        label, point = resolve(dict(zip(axes, combination, strict=True)))
-        coarsest, left = divmod(point.cells, max(COARSENING.values()))
-        if bands and (left or coarsest < FEWEST_CELLS) and not choice.is_fitted(point):
-            raise ConfigError(
-                f"cells: {point.cells} is not allowed with bands: true, which needs runs with cells/2 and cells/4;"
-                f" allowed: a multiple of 4 from {4 * FEWEST_CELLS}"
-            )
-        yield label, point
-
-
-@contextlib.contextmanager
-def _named(place: str) -> Iterator[None]:
-    """Put the place of a key before the message, which begins with the key, of a ConfigError raised in this context."""
-    try:
-        yield
-    except ConfigError as error:
-        raise ConfigError(f"{place}{error}") from None
+def _check_coarsening(point: Point, bands: bool) -> None:
+    """Raise a ConfigError unless cells halve twice in a study with bands, but of a fitted grid, without companions."""
+    coarsest, left = divmod(point.cells, max(COARSENING.values()))
+    if bands and (left or coarsest < FEWEST_CELLS) and not choice.is_fitted(point):
+        raise ConfigError(
+            f"cells: {point.cells} is not allowed with bands: true, which needs runs with cells/2 and cells/4;"
+            f" allowed: a multiple of 4 from {4 * FEWEST_CELLS}"
+        )
 
 
 def _check_keys(values: dict, known: Collection[str] | None = None) -> None:
@@ -267,6 +274,7 @@ def _axis(key: str, value: Any) -> Any:
     """Return the values of one key along its axis, checked, without repeats; scene options as given."""
     if key == "scene_options":
         return schema.checked(key, value)
+    value = _listed(key, value, key)
     if not (schema.is_axis(key) and isinstance(value, list)):
         return [schema.checked(key, value)]
     if not value:
@@ -275,3 +283,9 @@ def _axis(key: str, value: Any) -> Any:
         )
     entries = [schema.checked(key, entry) for entry in value]
     return list(dict.fromkeys(entries))
+
+
+def _listed(key: str, value: Any, name: str) -> Any:
+    """Return the list that a form such as {linspace: [0, 1, 5]} of a numeric axis stands for; others as they are."""
+    numeric = key in designs.REALS or schema.is_integer(schema.properties()[key])
+    return forms.numbers(value, name) if numeric and isinstance(value, dict) else value

@@ -7,6 +7,7 @@ is whole, was made by these sources and from this batch; else it is solved again
 asked for.
 """
 
+import collections
 import json
 import os
 import re
@@ -16,6 +17,7 @@ from typing import NamedTuple
 from subslide import checksums, source_hash
 from subslide.checksums import text_hash
 from subslide.files import RecordError
+from subslide.keys import kept
 from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS, Point, from_dict, to_dict
 from subslide.study.batches import MOST_BATCH_BYTES, spec_text, split
@@ -32,6 +34,9 @@ WHOLE = ("", False)
 
 OUTDATED = "were made by other sources"
 """Fault of a whole record that is not of these sources."""
+
+POORER = "keep less of each run than is asked for"
+"""Fault of a whole record of another `keep` than the configuration says outright."""
 
 
 class Batch(NamedTuple):
@@ -71,11 +76,11 @@ class Plan(NamedTuple):
     def faults(self) -> list[str]:
         """Lines on batches that are solved again: those of damaged or missing records, and how many are outdated."""
         again = [batch for batch in self.batches.values() if batch.fault]
-        lines = [
-            f"{batch.fault}: batch {batch.name} is solved again" for batch in again if batch.fault != OUTDATED
+        counts = collections.Counter(batch.fault for batch in again if batch.fault in (OUTDATED, POORER))
+        return [
+            *(f"{one.fault}: batch {one.name} is solved again" for one in again if one.fault not in counts),
+            *(f"{count} batches {fault}: they are solved again" for fault, count in counts.items()),
         ]
-        outdated = sum(batch.fault == OUTDATED for batch in again)
-        return lines + [f"{outdated} batches {OUTDATED}: they are solved again"] * (outdated > 0)
 
 
 def record_path(folder: Path, name: str) -> Path:
@@ -113,7 +118,7 @@ def plan(study: Study, folder: Path) -> Plan:
     """
     asked = {point.id: point for point in study.solved}
     stated = _stated(folder, asked)
-    states = {name: _state(record_path(folder, name), stated[name].digest) for name in stated}
+    states = {name: _state(record_path(folder, name), stated[name], study.keep_at_least) for name in stated}
     owner: dict[str, str] = {}
     for name in sorted(stated, key=lambda name: (states[name] != WHOLE, name)):
         for id_ in stated[name].ids:
@@ -124,11 +129,11 @@ def plan(study: Study, folder: Path) -> Plan:
         if points and states[name] == WHOLE:
             batches[name] = Batch(name, points, entry.digest)
         elif points:
-            batches[name] = _to_solve(name, points, *states[name])
+            batches[name] = _to_solve(name, points, study.keep, *states[name])
     new = [point for point in asked.values() if point.id not in owner]
     last = max((int(path.stem.partition("p")[0]) for path in _files(folder)), default=0)
     for number, unsolved in enumerate(split(new), last + 1):
-        batches[f"{number:04d}"] = _to_solve(f"{number:04d}", tuple(unsolved))
+        batches[f"{number:04d}"] = _to_solve(f"{number:04d}", tuple(unsolved), study.keep)
     owner |= {point.id: batch.name for batch in batches.values() for point in batch.points}
     return Plan(dict(sorted(batches.items())), _index(study, owner))
 
@@ -158,15 +163,18 @@ def check_folders(folder: Path, home: Path) -> None:
 
 
 class _Entry(NamedTuple):
-    """One file of the ledger: the ids that are asked for, in order, and the hash of its bytes."""
+    """One file of the ledger: the ids that are asked for, in order, what is kept of each, the hash of its bytes."""
 
     ids: list[str]
+    keep: str
     digest: str
 
 
-def _to_solve(name: str, points: tuple[Point, ...], fault: str = "", damaged: bool = False) -> Batch:
+def _to_solve(
+    name: str, points: tuple[Point, ...], keep: str, fault: str = "", damaged: bool = False
+) -> Batch:
     """Return a batch that is to be solved."""
-    text = spec_text(points)
+    text = spec_text(points, keep)
     return Batch(name, points, text_hash(text), text, fault, damaged)
 
 
@@ -189,10 +197,12 @@ def _stated(folder: Path, asked: dict[str, Point]) -> dict[str, _Entry]:
             if not path.is_file() or path.stat().st_size > MOST_BATCH_BYTES:
                 continue
             text = path.read_text(encoding="utf-8")
-            rows = {row["id"]: row for row in json.loads(text)["points"]}
+            batch = json.loads(text)
+            rows = {row["id"]: row for row in batch["points"]}
             ids = [id_ for id_ in rows if id_ in asked]
-            if all(_states(rows[id_], asked[id_]) for id_ in ids):
-                entries[path.stem] = _Entry(ids, text_hash(text))
+            keep = batch.get("keep", "all")
+            if keep in kept.WORDS and all(_states(rows[id_], asked[id_]) for id_ in ids):
+                entries[path.stem] = _Entry(ids, keep, text_hash(text))
         except (OSError, ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):
             continue
     return entries
@@ -204,24 +214,31 @@ def _states(row: dict, point: Point) -> bool:
     return values == to_dict(point) or (set(values) == set(RUN_KEYS) and from_dict(values).id == point.id)
 
 
-def _state(record: Path, digest: str) -> tuple[str, bool]:
-    """Return why a record does not hold what its batch states, by these sources, and whether its bytes changed."""
+def _state(record: Path, entry: _Entry, keep: str) -> tuple[str, bool]:
+    """Return why a record does not hold what its batch states, by these sources, and whether its bytes changed.
+
+    keep: what it must hold of each run at least, or ''.
+    """
     try:
         notes = checksums.verify(record)
     except RecordError as error:
         return str(error), record.is_file()
-    if notes.get("batch") != digest:
+    if notes.get("batch") != entry.digest:
         return f"{record} was not made from this batch", False
-    return (OUTDATED, False) if notes.get("sources") != source_hash() else WHOLE
+    if notes.get("sources") != source_hash():
+        return OUTDATED, False
+    return (POORER, False) if kept.is_less(entry.keep, keep) else WHOLE
 
 
 def _index(study: Study, owner: dict[str, str]) -> str:
-    """Return the text of points.json: the runs in the order of the tables and, apart, the companions for bands.
+    """Return the text of points.json: what was asked, the runs in the order of the tables and companions for bands.
 
     A companion states the id of its run (`of`) and its role; a point that is companion of two runs is there twice.
     """
     index: dict[str, object] = {
         "study": study.name,
+        "keep": study.keep,
+        "asked": study.asked,
         "points": [
             {"id": point.id, "batch": owner[point.id], "numerics": label, **to_dict(point)}
             for label, point in study.runs
@@ -232,4 +249,6 @@ def _index(study: Study, owner: dict[str, str]) -> str:
             {"id": point.id, "of": run.id, "role": role, "batch": owner[point.id], **to_dict(point)}
             for run, role, point in study.companions
         ]
+    if study.designs:
+        index["designs"] = study.designs
     return json.dumps(index, indent=1, allow_nan=False) + "\n"

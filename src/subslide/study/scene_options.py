@@ -9,6 +9,7 @@ from typing import Any
 from subslide import scenes
 from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
+from subslide.study import forms
 
 
 def checked(scene: str, given: dict[str, Any], key: str) -> dict[str, Any]:
@@ -89,11 +90,13 @@ def count(given: dict[str, Any]) -> int:
 
 
 def _lists(given: dict[str, Any]) -> dict[str, list]:
-    """Return the values along its axis of each option; one where it has no list or may not be an axis."""
-    return {
-        name: value if isinstance(value, list) and _is_axis(name) else [value]
-        for name, value in given.items()
-    }
+    """Return the values along its axis of each option; one where it has no list, or form of one, or is no axis."""
+    lists = {}
+    for name, value in given.items():
+        if isinstance(value, dict) and _is_axis(name):
+            value = forms.numbers(value, f"scene_options: {name}")
+        lists[name] = value if isinstance(value, list) and _is_axis(name) else [value]
+    return lists
 
 
 def _is_axis(name: str) -> bool:

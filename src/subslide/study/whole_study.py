@@ -1,4 +1,4 @@
-"""The keys that say something of a whole study, and nothing of one run: its name, figures, bands and limits."""
+"""The keys that say something of a whole study and nothing of one run: its name, figures, bands, records, limits."""
 
 from typing import Any
 

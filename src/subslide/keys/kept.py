@@ -1,0 +1,29 @@
+"""What records may keep of each run of a study, and the entry of the key that says so."""
+
+WORDS = ("summary", "series", "all")
+"""What may be kept, the least first."""
+
+ENTRY = {
+    "description": "what records keep of each run: all; series (every sample of the series, no profiles); summary"
+    " (numbers, and series thinned to the samples that keep each local extremum and 1e-3 of the curve); or auto (all of"
+    " a study of up to 2,000 solved points, else summary)",
+    "enum": ["auto", *WORDS],
+    "default": "auto",
+}
+"""Entry of the key `keep`, but for its role."""
+
+
+def is_less(one: str, other: str) -> bool:
+    """Return whether one word keeps less than another.
+
+    Parameters
+    ----------
+    one, other
+        Words; the other may be '', which asks for nothing.
+
+    Returns
+    -------
+    bool
+        Whether it does.
+    """
+    return bool(other) and WORDS.index(one) < WORDS.index(other)

@@ -1,0 +1,89 @@
+"""Main effects: the mean of an output over all other inputs, along one of them, with bands."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from subslide.sensitivity.failures import ranges
+from subslide.sensitivity.jackknife import ratios
+
+BINS = 12
+"""Parts of equal probability that an input's range is cut into."""
+
+
+class Effect(NamedTuple):
+    """Main effect of an input: arrays (bins).
+
+    Attributes
+    ----------
+    value
+        Mean of the input in each bin.
+    mean
+        Mean of the output there, failed runs with the mean of all others.
+    sampling
+        Half-width for the sampling alone.
+    grid
+        Half-width for the grid error of the outputs, all of which may err alike.
+    least, most
+        Mean where failed runs have the least or the largest output of the others; `mean` without failed runs.
+    """
+
+    value: np.ndarray
+    mean: np.ndarray
+    sampling: np.ndarray
+    grid: np.ndarray
+    least: np.ndarray
+    most: np.ndarray
+
+    @property
+    def low(self) -> np.ndarray:
+        """Lower end of the band."""
+        return self.least - self.sampling - self.grid
+
+    @property
+    def high(self) -> np.ndarray:
+        """Upper end of the band."""
+        return self.most + self.sampling + self.grid
+
+
+def effect(
+    outputs: np.ndarray, column: np.ndarray, half_widths: np.ndarray | None = None, bins: int = BINS
+) -> Effect:
+    """Return the main effect of an input.
+
+    Parameters
+    ----------
+    outputs
+        Outputs of the runs, shape (scramblings, ...), not a number where a run failed.
+    column
+        Values of the input, of the same shape; each block of a Saltelli design is a sample of it.
+    half_widths
+        Half-widths of the outputs' grid error, of the same shape; without them none.
+    bins
+        Parts of equal probability.
+
+    Returns
+    -------
+    Effect
+        Means in each part. The band of a mean is a jackknife over scramblings with Student's t.
+    """
+    count = len(outputs)
+    outputs, column = outputs.reshape(count, -1), column.reshape(count, -1)
+    places = np.minimum(
+        column.ravel().argsort(kind="stable").argsort(kind="stable") * bins // column.size, bins - 1
+    )
+    member = (places.reshape(column.shape)[..., None] == np.arange(bins)).astype(float)
+
+    def sums(values: np.ndarray) -> np.ndarray:
+        """Return sums in each bin: (scramblings, bins)."""
+        return np.einsum("sn,snb->sb", values, member)
+
+    filled, low, high = ranges(outputs, (0, 1))
+    sizes = member.sum(axis=1)
+    total = sizes.sum(axis=0)
+    mean, sampling = ratios(sums(filled), sizes)
+    least, most = (sums(values).sum(axis=0) / total for values in (low, high))
+    errors = np.zeros_like(filled) if half_widths is None else np.nan_to_num(half_widths).reshape(count, -1)
+    return Effect(
+        sums(column).sum(axis=0) / total, mean, sampling, sums(errors).sum(axis=0) / total, least, most
+    )

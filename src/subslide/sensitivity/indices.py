@@ -1,0 +1,215 @@
+"""Sobol' indices from Saltelli blocks, each with a band that holds sampling, grid error and failed runs.
+
+Ours because no library takes bands from independent scramblings, bounds an index where runs failed, or does whole
+series at once; their points are made by `scipy.stats.qmc`. With A and B two independent samples, AB_i the sample A with
+column i of B, and BA_i the other way round, every moment is a mean of products of two differences, so that a shift of
+the output drops out and a small effect has a small error:
+
+    V       half the square of (A - B), and of each (AB_i - BA_i)
+    V_i     - (BA_i - B) (AB_i - A) / 2
+    V_Ti    ((AB_i - A)^2 + (BA_i - B)^2) / 4
+    V_ij    ((BA_i - B) (AB_j - A) + (BA_j - B) (AB_i - A)) / 2
+    V_{ij}  - (BA_i - BA_j) (AB_i - AB_j) / 2, which is V_i + V_j + V_ij
+
+The first three are those of Azzini, Mara and Rosati (Environ. Model. Softw. 144, 105167, 2021), Jansen's among them;
+the others follow likewise. An index is the ratio of two means over all scramblings. Negative estimates are kept.
+"""
+
+import itertools
+from typing import NamedTuple
+
+import numpy as np
+
+from subslide.sensitivity.failures import ranges
+from subslide.sensitivity.jackknife import ratios
+
+DRAWS = 12
+"""Independent perturbations within the half-widths of the outputs."""
+
+Interval = tuple[np.ndarray, np.ndarray]
+"""Lowest and highest of each of many numbers."""
+
+
+class Label(NamedTuple):
+    """What an index is of: its kind (`first`, `total`, `second` or `closed`), and the places of its inputs."""
+
+    kind: str
+    places: tuple[int, ...]
+
+
+class Indices(NamedTuple):
+    """Indices in the order of `labels`, each an array (indices, ...).
+
+    Attributes
+    ----------
+    estimate
+        The index; not a number where the output does not vary.
+    sampling
+        Half-width for the sampling alone.
+    grid
+        Half-width for the grid error of the outputs.
+    least, most
+        Bounds of the index where failed runs may have any output that others have; the estimate without failed runs.
+    """
+
+    estimate: np.ndarray
+    sampling: np.ndarray
+    grid: np.ndarray
+    least: np.ndarray
+    most: np.ndarray
+
+    @property
+    def low(self) -> np.ndarray:
+        """Lower end of the band."""
+        return self.least - self.sampling - self.grid
+
+    @property
+    def high(self) -> np.ndarray:
+        """Upper end of the band."""
+        return self.most + self.sampling + self.grid
+
+
+def labels(inputs: int) -> list[Label]:
+    """Return what the indices of so many inputs are of, in order.
+
+    Parameters
+    ----------
+    inputs
+        How many inputs there are.
+
+    Returns
+    -------
+    list of Label
+        First-order and total indices of each, then second-order and closed ones of each pair.
+    """
+    ones = [(i,) for i in range(inputs)]
+    pairs = list(itertools.combinations(range(inputs), 2))
+    kinds = (("first", ones), ("total", ones), ("second", pairs), ("closed", pairs))
+    return [Label(kind, places) for kind, of in kinds for places in of]
+
+
+def indices(
+    outputs: np.ndarray, half_widths: np.ndarray | None = None, inputs: np.ndarray | None = None
+) -> Indices:
+    """Return the indices of an output, or of many at once.
+
+    Failed runs are never left out: the estimate has the others' mean in their place, and its bounds let each of them
+    have any output from the others' least to their largest, each on its own (interval arithmetic, so that the bounds
+    are never too narrow).
+
+    The grid error of the outputs is unknown within their half-widths, and may be of any kind: the same for all runs, a
+    trend along an input, or of each run on its own as where a front stands within its cell. So the outputs are
+    perturbed by all of these, whole half-widths up and down for the first two (the worst of them counts), half of one
+    as the standard deviation of the third (95 % within the half-width; here the mean change counts and twice its
+    scatter). All errors at their worst at once would be no error of any grid.
+
+    Parameters
+    ----------
+    outputs
+        Outputs of the runs, shape (scramblings, 2 + 2 inputs, points, ...), blocks in the order A, B, AB_1.., BA_1..;
+        not a number where a run failed.
+    half_widths
+        Half-widths of their grid error, of the same shape; without them none.
+    inputs
+        Inputs of the runs, shape (scramblings, 2 + 2 inputs, points, inputs), for trends along each.
+
+    Returns
+    -------
+    Indices
+        Arrays of shape (indices, ...), in the order of `labels`.
+    """
+    filled, low, high = ranges(outputs, (0, 1, 2))
+    estimate, sampling = _ratios(_moments((filled, filled))[0])
+    least, most = (estimate, estimate) if low is high else _bounds(_moments((low, high)))
+    grid = np.zeros_like(estimate)
+    if half_widths is not None:
+        grid = _of_grid(filled, np.nan_to_num(half_widths), inputs, estimate)
+    return Indices(estimate, sampling, grid, least, most)
+
+
+def _moments(outputs: Interval) -> Interval:
+    """Return V and then the moments in the order of `labels`, of each scrambling: (1 + indices, scramblings, ...)."""
+    k = outputs[0].shape[1] // 2 - 1
+
+    def block(place: int) -> Interval:
+        return outputs[0][:, place], outputs[1][:, place]
+
+    a, b = block(0), block(1)
+    ab, ba = [block(2 + i) for i in range(k)], [block(2 + k + i) for i in range(k)]
+    pairs = list(itertools.combinations(range(k), 2))
+    of_a, of_b = [_less(one, a) for one in ab], [_less(one, b) for one in ba]
+    varied = [_less(a, b), *(_less(x, y) for x, y in zip(ab, ba, strict=True))]
+    moments = [
+        _mean(1 / (2 * len(varied)), *map(_square, varied)),
+        *(_mean(-0.5, _times(of_b[i], of_a[i])) for i in range(k)),
+        *(_mean(0.25, _square(of_a[i]), _square(of_b[i])) for i in range(k)),
+        *(_mean(0.5, _times(of_b[i], of_a[j]), _times(of_b[j], of_a[i])) for i, j in pairs),
+        *(_mean(-0.5, _times(_less(ba[i], ba[j]), _less(ab[i], ab[j]))) for i, j in pairs),
+    ]
+    return np.stack([low for low, _ in moments]), np.stack([high for _, high in moments])
+
+
+def _less(x: Interval, y: Interval) -> Interval:
+    """Return x - y."""
+    return x[0] - y[1], x[1] - y[0]
+
+
+def _times(x: Interval, y: Interval) -> Interval:
+    """Return the product of two intervals of different numbers."""
+    ends = [p * q for p in x for q in y]
+    return np.minimum.reduce(ends), np.maximum.reduce(ends)
+
+
+def _square(x: Interval) -> Interval:
+    """Return the square of an interval."""
+    low, high = np.square(x[0]), np.square(x[1])
+    return np.where((x[0] < 0) & (x[1] > 0), 0, np.minimum(low, high)), np.maximum(low, high)
+
+
+def _mean(factor: float, *terms: Interval) -> Interval:
+    """Return the mean over points of a factor times the sum of terms."""
+    low, high = (factor * np.sum([term[end] for term in terms], axis=0).mean(axis=1) for end in (0, 1))
+    return (low, high) if factor > 0 else (high, low)
+
+
+def _ratios(moments: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the moments over V, and the half-widths of their bands."""
+    by_scrambling = np.moveaxis(moments, 1, 0)
+    return ratios(by_scrambling[:, 1:], by_scrambling[:, :1])
+
+
+def _bounds(moments: Interval) -> Interval:
+    """Return the least and the largest ratio of means over scramblings, of moments within intervals."""
+    low, high = (end.mean(axis=1) for end in moments)
+    with np.errstate(all="ignore"):
+        quotients = [numerator / variance[0] for numerator in (low[1:], high[1:]) for variance in (low, high)]
+    return np.minimum.reduce(quotients), np.maximum.reduce(quotients)
+
+
+def _of_grid(
+    outputs: np.ndarray, half_widths: np.ndarray, inputs: np.ndarray | None, estimate: np.ndarray
+) -> np.ndarray:
+    """Return the half-widths of indices for errors of the outputs within half-widths, see `indices`."""
+    shape = (*outputs.shape[:3], *[1] * (outputs.ndim - 3))
+
+    def change(error: np.ndarray) -> np.ndarray:
+        """Return how an error of the outputs, in half-widths, changes the estimates."""
+        perturbed = outputs + error * half_widths
+        return _ratios(_moments((perturbed, perturbed))[0])[0] - estimate
+
+    trends = [np.ones(outputs.shape[:3]), *(_ranks(column) for column in _columns(inputs))]
+    worst = [abs(change(sign * trend.reshape(shape))) for trend in trends for sign in (-1, 1)]
+    random = np.random.default_rng(1)
+    drawn = np.stack([change(random.normal(0, 0.5, outputs.shape[:3]).reshape(shape)) for _ in range(DRAWS)])
+    return np.maximum.reduce([*worst, abs(drawn.mean(axis=0)) + 2 * drawn.std(axis=0, ddof=1)])
+
+
+def _columns(inputs: np.ndarray | None) -> list[np.ndarray]:
+    """Return the values of each input."""
+    return [] if inputs is None else list(np.moveaxis(inputs, -1, 0))
+
+
+def _ranks(values: np.ndarray) -> np.ndarray:
+    """Return values by their places among all, from -1 to 1, equal ones alike."""
+    distinct, places = np.unique(values, return_inverse=True)
+    return (2 * places / max(1, len(distinct) - 1) - 1).reshape(values.shape)
