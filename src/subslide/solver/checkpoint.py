@@ -97,7 +97,8 @@ class Keeper:
 
     def under_way(self, point: Point) -> Saved | None:
         """Return the state of a point's run that was under way when the batch was killed, if it is whole."""
-        about, arrays = self._read(self._state(point.id))
+        path = self._state(point.id)
+        about, arrays = self._read(path) if path.exists() else ({}, {})
         try:
             if not about or about["id"] != point.id:
                 return None
