@@ -73,6 +73,12 @@ atlas: $(READY)  ## where methods fail: thousands of runs, maps of errors and st
 	@$(BIN)/snakemake --configfile config/stability.yaml --cores "$$CORES"
 	@cat results/stability/logs/table-atlas.log
 
+.PHONY: sensitivity
+sensitivity: $(READY)  ## Sobol' indices, main effects and power laws of the paper's parameters, from 17,000 runs
+	@$(BIN)/subslide unlock config/sensitivity.yaml
+	@$(BIN)/snakemake --configfile config/sensitivity.yaml --cores "$$CORES"
+	@echo "Indices, effects and laws are in results/sensitivity/tables, figures and report.html beside them"
+
 setup: $(READY)  ## set up alone: .venv with the locked packages and this one
 
 $(READY): requirements.lock pyproject.toml

@@ -21,35 +21,42 @@ BASE = Path(os.path.relpath(str(workflow.current_basedir)))  # a study may be mo
 PREFIX = workflow.modifier.path_modifier
 ARGUMENTS = workflow.config_settings.config_args
 
-# The file is read by our own strict reader: Snakemake's takes the last of two equal keys, and 0200 for 128.
-try:
-    if workflow.modifier.skip_configfile:  # imported as a module, which has its configuration from there
-        STUDY = make_study(config)
-    else:
-        STUDY = make_study(
-            asked.values(workflow.overwrite_configfiles, ARGUMENTS, BASE / "config/paper.yaml")
-        )
-    if PREFIX.prefix or PREFIX._prefix_replacements:
-        raise ConfigError("prefix: is not allowed; allowed: a module without, whose results lie in results/")
-    RESULTS = Path("results", STUDY.name)
-    HOME = Path(".snakemake/subslide", STUDY.name)
-    plan.check_folders(RESULTS, HOME)
-except ConfigError as error:
-    raise WorkflowError(f"configuration: {printable(str(error))}") from None
+# Where nothing is shared with them, jobs are sent what they read with the sources, and times tell nothing.
+CARRIED = workflow.storage_settings.default_storage_provider is not None
 
-# A job that Snakemake starts elsewhere reads this file too, and must have the plan that it was started with.
+# The file is read by our own strict reader: Snakemake's takes the last of two equal keys, and 0200 for 128.
+# A job that Snakemake starts elsewhere reads this file too: it has the plan that it was started with, and plans nothing.
 if workflow.is_main_process:
     try:
+        if workflow.modifier.skip_configfile:  # imported as a module, which has its configuration from there
+            VALUES = config
+        else:
+            VALUES = asked.values(workflow.overwrite_configfiles, ARGUMENTS, BASE / "config/paper.yaml")
+        STUDY = make_study(VALUES)
+        if PREFIX.prefix or PREFIX._prefix_replacements:
+            raise ConfigError(
+                "prefix: is not allowed; allowed: a module without, whose results lie in results/"
+            )
+        RESULTS = Path("results", STUDY.name)
+        HOME = Path(".snakemake/subslide", STUDY.name)
+        plan.check_folders(RESULTS, HOME)
         PLAN = plan.plan(STUDY, RESULTS)
-        STAGED = staging.stage(PLAN, HOME)
+        STAGED = staging.stage(PLAN, HOME, tables.of_study(STUDY), STUDY.figures)
         locks.hold(HOME)
+    except ConfigError as error:
+        raise WorkflowError(f"configuration: {printable(str(error))}") from None
     except OSError as error:  # a full disk, say
         raise WorkflowError(f"planning: {error.filename}: {error.strerror}") from None
-    workflow.config_settings.config_args = [*ARGUMENTS, f"{asked.KEY}={STAGED.key}"]
+    workflow.config_settings.config_args = [*ARGUMENTS, f"{asked.KEY}={STAGED.path}"]
+    if CARRIED:
+        captions = (BASE / "workflow/report").glob("*.rst")
+        carried = [STAGED.path, STAGED.points_file, *filter(Path.exists, STAGED.specs.values()), *captions]
+        workflow.configfiles += map(str, carried)
     for line in PLAN.faults:
         print(line, file=sys.stderr)
 else:
-    STAGED = staging.staged(HOME, asked.plan_key(ARGUMENTS))
+    STAGED = staging.staged(asked.plan_file(ARGUMENTS))
+    RESULTS, HOME = Path("results", STAGED.study), STAGED.home
 
 
 include: "workflow/rules/solve.smk"
@@ -73,6 +80,7 @@ onstart:
     staging.tidy(
         RESULTS, STAGED, map(Path, [*RECORDS, *SEALED_TABLES, *SEALED_FIGURES, *rules.report.output])
     )
+    staging.forget(RESULTS, (batch for batch in PLAN.batches.values() if batch.text))
     # tables that the study had before, and has no more, would be read as if they were its own
     for name in set(catalogue.names("tables")) - set(TABLES):
         remove_table(name, RESULTS)

@@ -17,16 +17,13 @@ from subslide.files import Stopped, write_text
 from subslide.keys import plain, schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
-from subslide.study import config, outputs, scene_options
+from subslide.study import config, outputs, scene_options, staging
 from subslide.study.batches import read_batch, spec_text
 from subslide.study.yaml_files import read_yaml
 
 if TYPE_CHECKING:
     from subslide.solver.checkpoint import Keeper
     from subslide.solver.run import Run
-
-UNFINISHED = ".unfinished"
-"""Folder beside a batch's record where long runs are kept until it is whole."""
 
 
 def point_of(path: str | None, options: dict[str, str]) -> Point:
@@ -116,7 +113,7 @@ def solved(
     keep
         What the record keeps of it, one of `subslide.keys.kept.WORDS`.
     keeper
-        Where the state of a long run is saved, and was.
+        What keeps the state of a long run, and gives it back.
 
     Returns
     -------
@@ -161,7 +158,7 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
         outputs.check(ledger, [*inputs, output, checksums.beside(output)], "--ledger", ".json")
     results: list[Run] = []
     with at_work(Path(os.path.realpath(output)).parent):
-        keeper = Keeper(Path(output).parent / UNFINISHED, Path(output).stem, points, keep)
+        keeper = Keeper(Path(output).parent / staging.UNFINISHED, Path(output).stem, points, keep)
         try:
             for point in points:
                 before = keeper.take(point)

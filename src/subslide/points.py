@@ -3,6 +3,7 @@
 import hashlib
 import json
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, make_dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -31,6 +32,8 @@ RUN_KEYS = schema.run_keys()
 
 FLOATS = tuple(key for key in RUN_KEYS if schema.is_real(ENTRIES[key]))
 INTEGERS = tuple(key for key in RUN_KEYS if schema.is_integer(ENTRIES[key]))
+
+REAL = frozenset(FLOATS)
 
 STANDS_FOR = {key: ENTRIES[key]["default"] for key in RUN_KEYS if "anyOf" in ENTRIES[key]}
 """Word, such as 'rest', that None stands for in a point, of each key that takes one beside numbers."""
@@ -242,16 +245,32 @@ def canonical(point: Point) -> str:
     return json.dumps(values, separators=(",", ":"), sort_keys=True)
 
 
-def to_dict(point: Point) -> dict[str, Any]:
-    """Return the values of a point by key, as a configuration would state them; numbers in one format."""
-    values = {key: getattr(point, key) for key in RUN_KEYS}
-    for key in FLOATS:
-        if values[key] is not None:
-            values[key] = float(values[key]) + 0.0  # -0.0 becomes 0.0
-    values["scene_options"] = dict(point.scene_options)
-    if point.snapshot_times is not None:
-        values["snapshot_times"] = [float(t) + 0.0 for t in point.snapshot_times]
-    return {key: STANDS_FOR[key] if value is None else value for key, value in values.items()}
+def to_dict(point: Point, keys: Sequence[str] = RUN_KEYS) -> dict[str, Any]:
+    """Return the values of a point by key, as a configuration would state them; numbers in one format.
+
+    Parameters
+    ----------
+    point
+        The point.
+    keys
+        Keys whose values are wanted.
+
+    Returns
+    -------
+    dict
+        Value by key.
+    """
+    values = {key: getattr(point, key) for key in keys}
+    for key, value in values.items():
+        if value is None:
+            values[key] = STANDS_FOR[key]
+        elif key in REAL:
+            values[key] = float(value) + 0.0  # -0.0 becomes 0.0
+        elif key == "scene_options":
+            values[key] = dict(value)
+        elif key == "snapshot_times":
+            values[key] = [float(t) + 0.0 for t in value]
+    return values
 
 
 def options_text(point: Point) -> str:
@@ -265,19 +284,19 @@ def from_dict(values: dict[str, Any]) -> Point:
 
 
 def held(key: str, value: Any) -> Any:
-    """Return the checked value of a key as a point holds it.
+    """Return the checked value of a key, as a configuration states it, as a point holds it.
 
     Parameters
     ----------
     key
-        One of `RUN_KEYS`.
+        Key of a run.
     value
-        Its value as a configuration states it.
+        What a configuration states for it; None stands for its word beside numbers.
 
     Returns
     -------
     object
-        The value, in one number format; None for a word that stands beside numbers.
+        The value: numbers in one format, options and times sorted.
     """
     if value is None or value == STANDS_FOR.get(key):
         return None

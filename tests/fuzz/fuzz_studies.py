@@ -55,7 +55,7 @@ def finish(folder: Path) -> Path:
 
     (folder / "study.yaml").write_text(STUDY)
     study, results = config.read_study(folder / "study.yaml"), folder / "t"
-    staged = staging.stage(plan.plan(study, results), folder / "staged")
+    staged = staging.stage(plan.plan(study, results), folder / "staged", {}, [])
     for name in ("records", "batches"):
         (results / name).mkdir(parents=True)
     for name, spec in staged.specs.items():

@@ -34,6 +34,9 @@ def to_solve(planned):
     return {name: [p.a_H for p in batch.points] for name, batch in planned.batches.items() if batch.text}
 
 
+TABLES = {"runs": ["runs.csv"]}
+
+
 def contents(folder):
     return {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
@@ -210,14 +213,14 @@ def test_a_point_in_two_batches_belongs_to_the_one_that_is_whole(solved):
 def test_texts_for_jobs_are_named_by_their_content(solved, tmp_path):
     """A plan that is made while another one runs changes none of its texts."""
     home = tmp_path / "cache"
-    first = staging.stage(plan.plan(study(a_H=[1, 2]), tmp_path / "none"), home)
+    first = staging.stage(plan.plan(study(a_H=[1, 2]), tmp_path / "none"), home, TABLES, [])
     before = contents(home)
-    second = staging.stage(plan.plan(study(a_H=[3]), tmp_path / "none"), home)
+    second = staging.stage(plan.plan(study(a_H=[3]), tmp_path / "none"), home, TABLES, [])
     assert before.items() <= contents(home).items()
     assert set(first.specs.values()).isdisjoint(second.specs.values())
-    assert staging.staged(home, first.key) == first
+    assert staging.staged(first.path) == first
     first.specs["0001"].write_text("{")  # a full disk, say
-    staging.stage(plan.plan(study(a_H=[1, 2]), tmp_path / "none"), home)
+    staging.stage(plan.plan(study(a_H=[1, 2]), tmp_path / "none"), home, TABLES, [])
     assert contents(home).items() >= before.items()
 
 

@@ -2,14 +2,13 @@
 
 SEALED_FIGURES = [
     file
-    for name in STUDY.figures
-    for kind in ("png", "svg")
-    for file in sealed(RESULTS / f"figures/{name}.{kind}")
+    for name in STAGED.figures
+    for file in sealed(*(RESULTS / f"figures/{name}.{kind}" for kind in ("png", "svg")))
 ]
 DRAWN = [
-    path
+    file
     for name, paths in TABLES.items()
-    for path in paths
+    for file in sealed(*paths)
     if "records" in catalogue.table(name).reads or not catalogue.table(name).reads
 ]
 
@@ -20,14 +19,15 @@ def drawn(name):
     return files, lambda: staging.are_whole(files, sources=source_hash("figure", name))
 
 
-for name in STUDY.figures:
+for name in STAGED.figures:
 
     rule:
         name:
             f"figure_{name}"
         input:
+            POINTS,
             DRAWN,
-            records=RECORDS,
+            records=SEALED_RECORDS,
             stamp=stamp(f"figure-{name}", *drawn(name)),
         output:
             report(

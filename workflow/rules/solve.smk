@@ -1,8 +1,6 @@
 # Records: one job solves the points of one batch. Which batch has which points stands in the plan.
 from shlex import quote
 
-RECORDS = [RESULTS / f"records/{batch}.nc" for batch in STAGED.specs]
-
 # Jobs find the commands of the virtual environment that Snakemake itself runs in; what a failed one said last is shown.
 shell.prefix(
     f"set -euo pipefail; export PATH={quote(str(Path(sys.executable).parent))}:$PATH; "
@@ -11,15 +9,21 @@ shell.prefix(
 )
 
 
-def sealed(path):
-    """Return the paths of a file and of its checksum."""
-    return [path, checksums.beside(path)]
+def sealed(*paths):
+    """Return the paths of files, each with that of its checksum."""
+    return [file for path in paths for file in (path, checksums.beside(path))]
 
 
 def stamp(name, outputs, whole):
     """Return the input by which a job starts again where what it made is not whole, as `whole()` tells."""
+    if CARRIED:
+        return []
     return staging.stamp(HOME, name, outputs, whole()) if workflow.is_main_process else HOME / name
 
+
+RECORDS = [RESULTS / f"records/{batch}.nc" for batch in STAGED.specs]
+SEALED_RECORDS = sealed(*RECORDS)
+POINTS = sealed(RESULTS / "points.json")
 
 for batch in STAGED.specs:
     stamp(f"batch-{batch}", [RESULTS / f"records/{batch}.nc"], lambda: not PLAN.batches[batch].text)
@@ -34,7 +38,7 @@ rule points:
             lambda: staging.holds(RESULTS / "points.json", PLAN.points_text),
         ),
     output:
-        sealed(RESULTS / "points.json"),
+        POINTS,
     log:
         RESULTS / "logs/points.log",
     params:
@@ -45,7 +49,7 @@ rule points:
 
 rule batch:
     input:
-        HOME / "batch-{batch}",
+        [] if CARRIED else HOME / "batch-{batch}",
     output:
         record=RESULTS / "records/{batch}.nc",
         checksum=RESULTS / "records/{batch}.nc.sha256",

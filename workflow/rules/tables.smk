@@ -1,11 +1,7 @@
 # Tables: a rule for each that the study is to have, made from records, from other tables, or by runs of its own.
 
-TABLES = {
-    name: [RESULTS / "tables" / file for file in tables.files(name, len(STUDY.points))]
-    for name in catalogue.names("tables")
-    if not tables.load(name).needs(STUDY)
-}
-SEALED_TABLES = [file for paths in TABLES.values() for path in paths for file in sealed(path)]
+TABLES = {name: [RESULTS / "tables" / file for file in files] for name, files in STAGED.tables.items()}
+SEALED_TABLES = [file for paths in TABLES.values() for file in sealed(*paths)]
 CAPTIONS = BASE / "workflow/report"
 
 
@@ -16,10 +12,10 @@ def caption(name):
 
 
 def made_from(name):
-    """Return the files that a table is made from."""
+    """Return the files that a table is made from, with their checksums."""
     about = catalogue.table(name)
-    records = [RESULTS / "points.json", *RECORDS] if "records" in about.reads else []
-    return [*records, *(path for other in about.reads for path in TABLES.get(other, []))]
+    files = [path for other in about.reads for path in TABLES.get(other, [])]
+    return [*POINTS, *(SEALED_RECORDS if "records" in about.reads else []), *sealed(*files)]
 
 
 def in_report(name, path):

@@ -7,15 +7,20 @@ from typing import Any, NamedTuple
 
 from subslide import checksums
 from subslide.files import RecordError
-from subslide.keys import schema, words
+from subslide.keys import words
 from subslide.keys.schema import ConfigError
-from subslide.points import RUN_KEYS, Point, from_dict
+from subslide.points import Point
+from subslide.study.rows import Reader
 
 AGAIN = "make the study again"
 """What mends a file of a study."""
 
 BROKEN = (OSError, ValueError, KeyError, TypeError, AttributeError, ArithmeticError, RecursionError)
 """What reading a file of JSON raises that is damaged, or something else."""
+
+
+RUN, COMPANION = frozenset(("id", "numerics", "batch")), frozenset(("id", "of", "role", "batch"))
+"""Keys of the rows of runs and of companions beside those of their points."""
 
 
 class StudyRun(NamedTuple):
@@ -73,12 +78,13 @@ def listed(folder: Path) -> Listing:
     fault = _fault(path)
     try:
         index = json.loads(path.read_text(encoding="utf-8"))
-        sections = {key: index[key] for key in ("points", "companions") if key in index}
-        rows = {key: [_row(row, check=bool(fault)) for row in rows] for key, rows in sections.items()}
-        runs = tuple(StudyRun(row["id"], row["numerics"], row["point"], row["batch"]) for row in rows["points"])
+        reader = Reader(index, check=bool(fault))
+        runs = tuple(
+            StudyRun(row["id"], row["numerics"], reader.point(row, RUN), row["batch"]) for row in index["points"]
+        )
         others = tuple(
-            Companion(row["id"], row["of"], row["role"], row["point"], row["batch"])
-            for row in rows.get("companions", ())
+            Companion(row["id"], row["of"], row["role"], reader.point(row, COMPANION), row["batch"])
+            for row in index.get("companions", ())
         )
         asked = dict(index.get("asked", {}))
         if not runs:
@@ -92,7 +98,7 @@ def listed(folder: Path) -> Listing:
         raise RecordError(f"{path} is damaged or not of this version ({what}); {AGAIN}") from None
     if fault and checksums.beside(path).exists():
         raise RecordError(f"{fault}; {AGAIN}")
-    return Listing(runs, others, "companions" in sections, asked, designs)
+    return Listing(runs, others, "companions" in index, asked, designs)
 
 
 def verify(path: Path) -> None:
@@ -136,11 +142,3 @@ def _check_designs(designs: tuple[dict[str, Any], ...], ids: set[str]) -> None:
             raise ValueError(f"a design has {len(blocks)} blocks")
         if any(len(block) != spec["points"] or not ids.issuperset(block) for block in blocks):
             raise ValueError("a block of a design names other runs")
-
-
-def _row(row: dict, check: bool) -> dict[str, Any]:
-    """Return a row of points.json with its point; ValueError if its values are not allowed, or not those of its id."""
-    point = from_dict({key: schema.checked(key, row[key]) if check else row[key] for key in RUN_KEYS})
-    if check and point.id != row["id"]:
-        raise ValueError(f"the values of {row['id']} belong to {point.id}")
-    return {**row, "point": point}

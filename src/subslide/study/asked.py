@@ -9,7 +9,7 @@ from subslide.keys.schema import ConfigError
 from subslide.study.yaml_files import read_overrides, read_yaml
 
 KEY = "subslide_plan"
-"""Word by which Snakemake tells the jobs that it starts elsewhere which plan they belong to."""
+"""Word by which Snakemake tells the jobs that it starts elsewhere the file of the plan that they belong to."""
 
 
 def values(files: Iterable[Path], arguments: Iterable[str], default: Path) -> dict[str, Any]:
@@ -41,9 +41,9 @@ def values(files: Iterable[Path], arguments: Iterable[str], default: Path) -> di
     return {**read_yaml(paths[0]), **read_overrides([text for text in arguments if not _names_plan(text)])}
 
 
-def plan_key(arguments: Iterable[str]) -> str:
-    """Return the key of the plan that a job was started with, from its arguments, or ''."""
-    return "".join([text.partition("=")[2] for text in arguments if _names_plan(text)][-1:])
+def plan_file(arguments: Iterable[str]) -> Path:
+    """Return the file of the plan that a job was started with, from its arguments."""
+    return Path("".join([text.partition("=")[2] for text in arguments if _names_plan(text)][-1:]))
 
 
 def _names_plan(text: str) -> bool:

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 from subslide.keys import kept, words
 from subslide.keys.schema import ConfigError
-from subslide.points import Point, to_dict
-from subslide.study import checking, choice, cost
+from subslide.points import Point
+from subslide.study import choice, cost, rows
 from subslide.study.yaml_files import read_text
 
 SECONDS = (2.0, 60.0)
@@ -47,8 +47,7 @@ def spec_text(points: Iterable[Point], keep: str = "all") -> str:
     str
         JSON.
     """
-    rows = [{"id": point.id, **to_dict(point)} for point in points]
-    return json.dumps({"keep": keep, "points": rows}, indent=1, allow_nan=False) + "\n"
+    return rows.text({"keep": keep}, {"points": (({"id": point.id}, point) for point in points)})
 
 
 def read_batch(spec: Path | str) -> Spec:
@@ -73,7 +72,7 @@ def read_batch(spec: Path | str) -> Spec:
     text = read_text(spec, MOST_BATCH_BYTES)
     try:
         batch = json.loads(text)
-        rows, kernels = batch["points"], batch.get("kernels")  # which an older version stated
+        listed, kernels = batch["points"], batch.get("kernels")  # which an older version stated
         keep = batch.get("keep", "all")
     except KeyError as error:
         raise ConfigError(f"{spec}: not a batch file: the key {error} is missing") from None
@@ -81,8 +80,8 @@ def read_batch(spec: Path | str) -> Spec:
         raise ConfigError(f"{spec}: not a batch file: nested too deep") from None
     except (ValueError, TypeError, AttributeError) as error:
         raise ConfigError(f"{spec}: not a batch file: {error}") from None
-    if not (isinstance(rows, list) and rows):
-        raise ConfigError(f"{spec}: points: {words.show(rows)} is not allowed; allowed: a list of points")
+    if not (isinstance(listed, list) and listed):
+        raise ConfigError(f"{spec}: points: {words.show(listed)} is not allowed; allowed: a list of points")
     if kernels is not None and kernels not in choice.all_kernels():
         hint = words.closest(kernels, choice.all_kernels())
         raise ConfigError(f"{spec}: kernels: {words.show(kernels)}: there are none of that name{hint}")
@@ -90,22 +89,22 @@ def read_batch(spec: Path | str) -> Spec:
         raise ConfigError(
             f"{spec}: keep: {words.show(keep)} is not allowed; allowed: {', '.join(kept.WORDS)}"
         )
-    points: list[Point] = []
-    for number, row in enumerate(rows):
+    points: dict[str, Point] = {}
+    try:
+        reader = rows.Reader(batch, check=True)
+    except ConfigError as error:
+        raise ConfigError(f"{spec}: {error}") from None
+    for number, row in enumerate(listed):
         try:
-            point = checking.point_of_row(row)
+            point = reader.point(row)
         except ConfigError as error:
             raise ConfigError(f"{spec}: points[{number}]: {error}") from None
-        if point.id != row["id"]:
-            raise ConfigError(
-                f"{spec}: the values of {words.show(row['id'])} belong to {point.id}; was the file edited?"
-            )
-        if point in points:
+        if point.id in points:
             raise ConfigError(
                 f"{spec}: points[{number}]: {point.id} stands there twice; allowed: each point once"
             )
-        points.append(point)
-    return Spec(points, keep)
+        points[point.id] = point
+    return Spec(list(points.values()), keep)
 
 
 def split(points: list[Point]) -> list[list[Point]]:

@@ -2,9 +2,8 @@
 
 from typing import Any
 
-from subslide.keys import schema, words
-from subslide.keys.schema import ConfigError
-from subslide.points import RUN_KEYS, STANDS_FOR, Point, from_dict
+from subslide.keys import schema
+from subslide.points import RUN_KEYS, STANDS_FOR, Point
 from subslide.study import scene_options, together
 
 MARK = "_checked"
@@ -35,42 +34,22 @@ def check_point(point: Point) -> None:
         value = getattr(point, key)
         if value is not None or key not in STANDS_FOR:  # None stands for the word that is the default
             schema.checked(key, _as_stated(key, value))
-    _check_whole(point)
+    check_whole(point)
 
 
-def point_of_row(row: Any) -> Point:
-    """Return the point of a row of a batch file, which states every key.
+def check_whole(point: Point) -> None:
+    """Check what no value tells alone, and mark the point.
 
     Parameters
     ----------
-    row
-        Value by key of a run, and the point's id.
-
-    Returns
-    -------
-    Point
-        The point, checked; whether it has that id is not.
+    point
+        Point, each of whose values is allowed.
 
     Raises
     ------
     ConfigError
-        If a key is missing or one too many, or a value is not allowed: one line.
+        If they do not go with one another: one line.
     """
-    if not isinstance(row, dict):
-        raise ConfigError(f"{words.show(row)} is no point; allowed: a mapping with every key of a run")
-    keys = ("id", *RUN_KEYS)
-    for key in (*keys, *row):
-        if key not in row:
-            raise ConfigError(f"{key}: this key is missing")
-        if key not in keys:
-            raise ConfigError(f"{words.show(key)}: there is no such key{words.closest(key, keys)}")
-    point = from_dict({key: schema.checked(key, row[key]) for key in RUN_KEYS})
-    _check_whole(point)
-    return point
-
-
-def _check_whole(point: Point) -> None:
-    """Check what no value tells alone, and mark the point."""
     scene_options.checked(point.scene, dict(point.scene_options), "scene_options")
     together.check(point)
     mark(point)

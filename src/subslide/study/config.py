@@ -128,7 +128,9 @@ def make_study(values: dict) -> Study:
                 ids.append(point.id)
                 runs.setdefault(point.id, (label, point))
         listed += expansion.members(grid, ids)
-    figures = whole_study.figures_of(whole["figures"], [point for _, point in runs.values()])
+    figures = whole_study.figures_of(
+        whole["figures"], [point for _, point in runs.values()], {one["kind"] for one in listed}
+    )
     study = Study(whole["study"], figures, tuple(runs.values()), bands, dict(values), tuple(listed))
     alone = sum(not choice.is_fitted(point) for point in study.points) if bands else 0
     _check_count(len(runs) + alone * len(COARSENING), ", companions for bands among them")

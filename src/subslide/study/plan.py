@@ -12,14 +12,15 @@ import json
 import os
 import re
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from subslide import checksums, source_hash
 from subslide.checksums import text_hash
 from subslide.files import RecordError
 from subslide.keys import kept
 from subslide.keys.schema import ConfigError
-from subslide.points import RUN_KEYS, Point, from_dict, to_dict
+from subslide.points import Point, from_dict
+from subslide.study import rows
 from subslide.study.batches import MOST_BATCH_BYTES, spec_text, split
 from subslide.study.config import Study
 
@@ -36,7 +37,10 @@ OUTDATED = "were made by other sources"
 """Fault of a whole record that is not of these sources."""
 
 POORER = "keep less of each run than is asked for"
-"""Fault of a whole record of another `keep` than the configuration says outright."""
+"""Fault of a whole record of a poorer `keep` than the configuration says outright."""
+
+VOUCHED = ("", POORER)
+"""Faults, or none, of records that were made of their batch's file by these sources."""
 
 
 class Batch(NamedTuple):
@@ -67,8 +71,9 @@ class Batch(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """Batches that hold a study's points, by name, and what points.json is to hold."""
+    """Name of a study, batches that hold its points, by name, and what points.json is to hold."""
 
+    study: str
     batches: dict[str, Batch]
     points_text: str
 
@@ -117,25 +122,27 @@ def plan(study: Study, folder: Path) -> Plan:
         Its batches: those whose records are whole, those to solve again, and those to solve.
     """
     asked = {point.id: point for point in study.solved}
-    stated = _stated(folder, asked)
-    states = {name: _state(record_path(folder, name), stated[name], study.keep_at_least) for name in stated}
+    stated = {}
+    for path in _files(folder):
+        if entry := _entry(path, record_path(folder, path.stem), asked, study.keep_at_least):
+            stated[path.stem] = entry
     owner: dict[str, str] = {}
-    for name in sorted(stated, key=lambda name: (states[name] != WHOLE, name)):
+    for name in sorted(stated, key=lambda name: (stated[name].state != WHOLE, name)):
         for id_ in stated[name].ids:
             owner.setdefault(id_, name)
     batches = {}
     for name, entry in stated.items():
         points = tuple(asked[id_] for id_ in entry.ids if owner[id_] == name)
-        if points and states[name] == WHOLE:
+        if points and entry.state == WHOLE:
             batches[name] = Batch(name, points, entry.digest)
         elif points:
-            batches[name] = _to_solve(name, points, study.keep, *states[name])
+            batches[name] = _to_solve(name, points, study.keep, *entry.state)
     new = [point for point in asked.values() if point.id not in owner]
     last = max((int(path.stem.partition("p")[0]) for path in _files(folder)), default=0)
     for number, unsolved in enumerate(split(new), last + 1):
         batches[f"{number:04d}"] = _to_solve(f"{number:04d}", tuple(unsolved), study.keep)
     owner |= {point.id: batch.name for batch in batches.values() for point in batch.points}
-    return Plan(dict(sorted(batches.items())), _index(study, owner))
+    return Plan(study.name, dict(sorted(batches.items())), _index(study, owner))
 
 
 def check_folders(folder: Path, home: Path) -> None:
@@ -163,11 +170,11 @@ def check_folders(folder: Path, home: Path) -> None:
 
 
 class _Entry(NamedTuple):
-    """One file of the ledger: the ids that are asked for, in order, what is kept of each, the hash of its bytes."""
+    """One file of the ledger: the ids that are asked for, in order, the hash of its bytes, and how its record is."""
 
     ids: list[str]
-    keep: str
     digest: str
+    state: tuple[str, bool]
 
 
 def _to_solve(
@@ -185,49 +192,48 @@ def _files(folder: Path) -> list[Path]:
     return sorted(path for path in entries if path.suffix == ".json" and NAME.fullmatch(path.stem))
 
 
-def _stated(folder: Path, asked: dict[str, Point]) -> dict[str, _Entry]:
-    """Return what each file of the ledger states, by name.
+def _entry(path: Path, record: Path, asked: dict[str, Point], keep: str) -> _Entry | None:
+    """Return what a file of the ledger states, and how its record is; what that must keep of each run, or ''.
 
     A file that cannot be read, or states other values of a point than its id stands for, counts as not there: its
-    points come anew.
+    points come anew. One that its record vouches for was written by these sources, with its ids.
     """
-    entries = {}
-    for path in _files(folder):
-        try:
-            if not path.is_file() or path.stat().st_size > MOST_BATCH_BYTES:
-                continue
-            text = path.read_text(encoding="utf-8")
-            batch = json.loads(text)
-            rows = {row["id"]: row for row in batch["points"]}
-            ids = [id_ for id_ in rows if id_ in asked]
-            keep = batch.get("keep", "all")
-            if keep in kept.WORDS and all(_states(rows[id_], asked[id_]) for id_ in ids):
-                entries[path.stem] = _Entry(ids, keep, text_hash(text))
-        except (OSError, ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):
-            continue
-    return entries
+    try:
+        if not path.is_file() or path.stat().st_size > MOST_BATCH_BYTES:
+            return None
+        text = path.read_text(encoding="utf-8")
+        batch = json.loads(text)
+        stated = {row["id"]: row for row in batch["points"]}
+        ids = [id_ for id_ in stated if id_ in asked]
+        kept_of_each = batch.get("keep", "all")
+        digest = text_hash(text)
+        state = _state(record, digest, POORER if kept.is_less(kept_of_each, keep) else "")
+        shared = batch.get(rows.SHARED, {})
+        if state[0] not in VOUCHED and not all(_states({**shared, **stated[id_]}, id_) for id_ in ids):
+            return None
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):
+        return None
+    return _Entry(ids, digest, state)
 
 
-def _states(row: dict, point: Point) -> bool:
-    """Return whether a row of the ledger states a point; the path of a file that it reads may be spelt otherwise."""
+def _states(row: dict, id_: str) -> bool:
+    """Return whether a row of the ledger states every key of a run, and the values that its id stands for."""
     values = {key: value for key, value in row.items() if key != "id"}
-    return values == to_dict(point) or (set(values) == set(RUN_KEYS) and from_dict(values).id == point.id)
+    return set(values) == rows.KEYS and from_dict(values).id == id_
 
 
-def _state(record: Path, entry: _Entry, keep: str) -> tuple[str, bool]:
+def _state(record: Path, digest: str, poorer: str) -> tuple[str, bool]:
     """Return why a record does not hold what its batch states, by these sources, and whether its bytes changed.
 
-    keep: what it must hold of each run at least, or ''.
+    poorer: why a record that does is not enough, or ''.
     """
     try:
         notes = checksums.verify(record)
     except RecordError as error:
         return str(error), record.is_file()
-    if notes.get("batch") != entry.digest:
+    if notes.get("batch") != digest:
         return f"{record} was not made from this batch", False
-    if notes.get("sources") != source_hash():
-        return OUTDATED, False
-    return (POORER, False) if kept.is_less(entry.keep, keep) else WHOLE
+    return (poorer if notes.get("sources") == source_hash() else OUTDATED), False
 
 
 def _index(study: Study, owner: dict[str, str]) -> str:
@@ -235,20 +241,18 @@ def _index(study: Study, owner: dict[str, str]) -> str:
 
     A companion states the id of its run (`of`) and its role; a point that is companion of two runs is there twice.
     """
-    index: dict[str, object] = {
-        "study": study.name,
-        "keep": study.keep,
-        "asked": study.asked,
+    head: dict[str, Any] = {"study": study.name, "keep": study.keep, "asked": study.asked}
+    sections: dict[str, list] = {
         "points": [
-            {"id": point.id, "batch": owner[point.id], "numerics": label, **to_dict(point)}
+            ({"id": point.id, "batch": owner[point.id], "numerics": label}, point)
             for label, point in study.runs
-        ],
+        ]
     }
     if study.bands:
-        index["companions"] = [
-            {"id": point.id, "of": run.id, "role": role, "batch": owner[point.id], **to_dict(point)}
+        sections["companions"] = [
+            ({"id": point.id, "of": run.id, "role": role, "batch": owner[point.id]}, point)
             for run, role, point in study.companions
         ]
     if study.designs:
-        index["designs"] = study.designs
-    return json.dumps(index, indent=1, allow_nan=False) + "\n"
+        head["designs"] = study.designs
+    return rows.text(head, sections)

@@ -11,7 +11,7 @@ import json
 import math
 import os
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -22,6 +22,9 @@ from subslide.study.plan import Batch, Plan, record_path
 
 LONG_AGO = 1
 """Time (s since 1970) of the stamp of what is whole."""
+
+UNFINISHED = ".unfinished"
+"""Folder beside records where batches of long runs keep what they have, see `solver.checkpoint`."""
 
 
 class Needs(NamedTuple):
@@ -36,29 +39,38 @@ class Staged(NamedTuple):
 
     Attributes
     ----------
+    study
+        Name of the study.
     home
         The study's folder within `.snakemake`.
-    key
-        Name of the plan among those staged.
+    path
+        The file that states the plan, named by its content.
     specs
         Path of the text of each batch, by its name.
     needs
         What the job of each batch may need, by the batch's name.
     points_file
         Path of the text of points.json.
+    tables
+        Names of the files of each table, by its name.
+    figures
+        Names of the figures.
     damaged
         Names of the batches whose records are damaged.
     """
 
+    study: str
     home: Path
-    key: str
+    path: Path
     specs: dict[str, Path]
     needs: dict[str, Needs]
     points_file: Path
+    tables: dict[str, list[str]]
+    figures: list[str]
     damaged: tuple[str, ...] = ()
 
 
-def stage(plan: Plan, home: Path) -> Staged:
+def stage(plan: Plan, home: Path, tables: Mapping[str, Sequence[str]], figures: Sequence[str]) -> Staged:
     """Write a plan below a folder within `.snakemake`, and return it as jobs know it.
 
     Parameters
@@ -67,6 +79,10 @@ def stage(plan: Plan, home: Path) -> Staged:
         The plan.
     home
         The study's folder within `.snakemake`, made if need be.
+    tables
+        Names of the files of each table that is to be made, by its name.
+    figures
+        Names of the figures.
 
     Returns
     -------
@@ -82,33 +98,39 @@ def stage(plan: Plan, home: Path) -> Staged:
     points_file = home / f"points-{checksums.text_hash(plan.points_text)}.json"
     _write(points_file, plan.points_text)
     needs = {name: needs_of(batch) for name, batch in plan.batches.items()}
-    paths = {name: str(path) for name, path in specs.items()}
-    table = json.dumps({"specs": paths, "needs": needs, "points": str(points_file)})
-    key = checksums.text_hash(table)
-    _write(home / f"plan-{key}.json", table)
+    about = {
+        "study": plan.study,
+        "specs": {name: str(path) for name, path in specs.items()},
+        "needs": needs,
+        "points": str(points_file),
+        "tables": {name: list(files) for name, files in tables.items()},
+        "figures": list(figures),
+    }
+    text = json.dumps(about)
+    path = home / f"plan-{checksums.text_hash(text)}.json"
+    _write(path, text)
     damaged = tuple(name for name, batch in plan.batches.items() if batch.damaged)
-    return Staged(home, key, specs, needs, points_file, damaged)
+    return staged(path)._replace(damaged=damaged)
 
 
-def staged(home: Path, key: str) -> Staged:
-    """Return a plan that another process has staged.
+def staged(path: Path) -> Staged:
+    """Return a plan that another process has staged: all that a job needs to know of its study.
 
     Parameters
     ----------
-    home
-        The study's folder within `.snakemake`.
-    key
-        Key of the plan.
+    path
+        The file that states the plan.
 
     Returns
     -------
     Staged
         The plan as the other process has it, but for damage, which is that process's to mend.
     """
-    table = json.loads((home / f"plan-{key}.json").read_text(encoding="utf-8"))
-    specs = {name: Path(path) for name, path in table["specs"].items()}
-    needs = {name: Needs(*values) for name, values in table["needs"].items()}
-    return Staged(home, key, specs, needs, Path(table["points"]))
+    about = json.loads(path.read_text(encoding="utf-8"))
+    specs = {name: Path(spec) for name, spec in about["specs"].items()}
+    needs = {name: Needs(*values) for name, values in about["needs"].items()}
+    points_file, tables, figures = Path(about["points"]), about["tables"], about["figures"]
+    return Staged(about["study"], path.parent, path, specs, needs, points_file, tables, figures)
 
 
 def needs_of(batch: Batch) -> Needs:
@@ -213,7 +235,7 @@ def tidy(folder: Path, now: Staged, outputs: Iterable[Path]) -> None:
             aside = folder / "damaged" / (f"{path.name}-{time.time_ns()}" if path.is_dir() else path.name)
             aside.parent.mkdir(exist_ok=True)
             os.replace(path, aside)
-    needed = {now.points_file, now.home / f"plan-{now.key}.json", *now.specs.values()}
+    needed = {now.points_file, now.path, *now.specs.values()}
     old = {path for path in now.home.glob("*-*.json") if path not in needed}
     for path in (*folder.rglob("*"), *now.home.iterdir()):
         with contextlib.suppress(OSError):
@@ -221,6 +243,25 @@ def tidy(folder: Path, now: Staged, outputs: Iterable[Path]) -> None:
                 path.unlink()
             elif path.stat().st_mtime > time.time():
                 os.utime(path)
+
+
+def forget(folder: Path, batches: Iterable[Batch]) -> None:
+    """Remove what was kept of long runs that no batch is to solve any more.
+
+    Parameters
+    ----------
+    folder
+        The study's folder of results.
+    batches
+        Batches that are to be solved.
+    """
+    wanted = set()
+    for batch in batches:
+        wanted |= {f"batch-{batch.name}", *(point.id for point in batch.points)}
+    for path in (folder / "records" / UNFINISHED).glob("*.npz"):
+        name = path.stem.rpartition("-")[0] if path.stem.startswith("batch-") else path.stem
+        if name not in wanted:
+            path.unlink(missing_ok=True)
 
 
 def _write(path: Path, text: str) -> None:

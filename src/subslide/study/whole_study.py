@@ -1,5 +1,6 @@
 """The keys that say something of a whole study and nothing of one run: its name, figures, bands, records, limits."""
 
+from collections.abc import Collection
 from typing import Any
 
 from subslide import catalogue
@@ -45,7 +46,7 @@ def values_of(values: dict, names: dict[str, str] | None = None) -> dict[str, An
     return whole
 
 
-def figures_of(chosen: Any, points: list[Point]) -> tuple[str, ...]:
+def figures_of(chosen: Any, points: list[Point], designs: Collection[str] = ()) -> tuple[str, ...]:
     """Return the names of the figures of a study, in one order.
 
     Parameters
@@ -54,6 +55,8 @@ def figures_of(chosen: Any, points: list[Point]) -> tuple[str, ...]:
         Checked value of `figures`.
     points
         Runs of the study.
+    designs
+        Kinds of its designs that figures may need.
 
     Returns
     -------
@@ -69,14 +72,14 @@ def figures_of(chosen: Any, points: list[Point]) -> tuple[str, ...]:
     if chosen == "none":
         return ()
     if chosen == "auto":
-        return tuple(name for name in known if not lacking(name, points))
+        return tuple(name for name in known if not lacking(name, points, designs))
     for name in chosen:
-        if lack := lacking(name, points):
+        if lack := lacking(name, points, designs):
             raise ConfigError(f"figures: {name} needs runs with {lack}, which this study does not have")
     return tuple(name for name in known if name in chosen)
 
 
-def lacking(name: str, points: list[Point]) -> str:
+def lacking(name: str, points: list[Point], designs: Collection[str] = ()) -> str:
     """Return the first 'key: value' that a figure needs and no point has, or ''.
 
     Parameters
@@ -85,6 +88,8 @@ def lacking(name: str, points: list[Point]) -> str:
         Name of the figure.
     points
         Runs of the study.
+    designs
+        Kinds of its designs.
 
     Returns
     -------
@@ -92,7 +97,7 @@ def lacking(name: str, points: list[Point]) -> str:
         What is lacking, as a configuration would state it.
     """
     for key, needed in catalogue.figure(name).needs.items():
-        present = {getattr(point, key) for point in points}
+        present = set(designs) if key == "design" else {getattr(point, key) for point in points}
         for value in needed:
             if value not in present:
                 return f"{key}: {value}"

@@ -45,10 +45,14 @@ that begin with '_' are helpers. A module imports no other table but those that 
 
 import importlib
 from types import ModuleType
+from typing import TYPE_CHECKING
 
 from subslide import catalogue
 from subslide.keys import words
 from subslide.keys.schema import ConfigError
+
+if TYPE_CHECKING:
+    from subslide.study.config import Study
 
 
 def load(name: str) -> ModuleType:
@@ -79,6 +83,23 @@ def files(name: str, runs: int) -> list[str]:
     module = load(name)
     filename = module.filename(runs) if hasattr(module, "filename") else f"{name}.csv"
     return [filename, *([f"{name}.html"] if hasattr(module, "html") else [])]
+
+
+def of_study(study: "Study") -> dict[str, list[str]]:
+    """Return the names of the files of each table that a study is to have, by the table's name.
+
+    Parameters
+    ----------
+    study
+        The study.
+
+    Returns
+    -------
+    dict
+        Names of files by name of table.
+    """
+    names = (name for name in catalogue.names("tables") if not load(name).needs(study))
+    return {name: files(name, len(study.runs)) for name in names}
 
 
 def about(name: str) -> str:

@@ -32,9 +32,11 @@ def lacking(name: str, results: "Results") -> str:
         What the table's `needs` returns.
     """
     runs = results.runs_of_study
-    figures = whole_study.figures_of("auto", [run.point for run in runs])
+    kinds = {one["kind"] for one in results.designs}
+    figures = whole_study.figures_of("auto", [run.point for run in runs], kinds)
     named = tuple((run.numerics, run.point) for run in runs)
-    return tables.load(name).needs(Study(results.folder.name, figures, named, results.has_bands))
+    study = Study(results.folder.name, figures, named, results.has_bands, designs=results.designs)
+    return tables.load(name).needs(study)
 
 
 def write(name: str, results: "Results") -> list[Path]:
