@@ -18,16 +18,13 @@ from subslide.files import Stopped, write_text
 from subslide.keys import plain, schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
-from subslide.study import config, cost, outputs, pace, scene_options
+from subslide.study import config, cost, outputs, pace, scene_options, staging
 from subslide.study.batches import read_batch, spec_text
 from subslide.study.yaml_files import read_yaml
 
 if TYPE_CHECKING:
     from subslide.solver.checkpoint import Keeper
     from subslide.solver.run import Run
-
-UNFINISHED = ".unfinished"
-"""Folder beside a batch's record where long runs are kept until it is whole."""
 
 
 def point_of(path: str | None, options: dict[str, str]) -> Point:
@@ -164,7 +161,7 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
     results: list[Run] = []
     begun, resumed = 0.0, False
     with at_work(Path(os.path.realpath(output)).parent):
-        keeper = Keeper(Path(output).parent / UNFINISHED, Path(output).stem, points)
+        keeper = Keeper(Path(output).parent / staging.UNFINISHED, Path(output).stem, points, keep)
         try:
             for point in points:
                 before = keeper.take(point)
