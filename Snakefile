@@ -92,6 +92,7 @@ onstart:
     staging.tidy(
         RESULTS, STAGED, map(Path, [*RECORDS, *SEALED_TABLES, *SEALED_FIGURES, *rules.report.output])
     )
+    staging.forget(RESULTS, (batch for batch in PLAN.batches.values() if batch.text))
     # tables that the study had before, and has no more, would be read as if they were its own
     for name in set(catalogue.names("tables")) - set(TABLES):
         remove_table(name, RESULTS)

@@ -19,16 +19,13 @@ from subslide.keys import plain, schema, words
 from subslide.keys.schema import ConfigError
 from subslide.naming import FINISHED
 from subslide.points import Point
-from subslide.study import config, cost, outputs, pace, progress, scene_options
+from subslide.study import config, cost, outputs, pace, progress, scene_options, staging
 from subslide.study.batches import read_batch, spec_text
 from subslide.study.yaml_files import read_yaml
 
 if TYPE_CHECKING:
     from subslide.solver.checkpoint import Keeper
     from subslide.solver.run import Run
-
-UNFINISHED = ".unfinished"
-"""Folder beside a batch's record where long runs are kept until it is whole."""
 
 
 def point_of(path: str | None, options: dict[str, str]) -> Point:
@@ -105,7 +102,7 @@ def solved(
     keep: str = "all",
     keeper: "Keeper | None" = None,
 ) -> "Run":
-    """Return the run of a point as a record keeps it: a long one thinned, so that a batch fits into memory.
+    """Return the run of a point as a record keeps it, so that a batch fits into memory.
 
     Parameters
     ----------
@@ -128,7 +125,8 @@ def solved(
     from subslide import solver
     from subslide.records import thinning
 
-    return thinning.thinned(solver.solve(point, threads=threads, progress=progress, keeper=keeper))
+    run = solver.solve(point, threads=threads, progress=progress, keeper=keeper, profiles=keep == "all")
+    return thinning.kept(run, keep)
 
 
 def batch(
@@ -174,7 +172,7 @@ def batch(
     begun = estimated = 0.0
     counter = progress.Counter(counted)
     with at_work(Path(os.path.realpath(output)).parent):
-        keeper = Keeper(Path(output).parent / UNFINISHED, Path(output).stem, points, keep)
+        keeper = Keeper(Path(output).parent / staging.UNFINISHED, Path(output).stem, points, keep)
         try:
             for point in points:
                 before = keeper.take(point)

@@ -23,6 +23,9 @@ from subslide.study.plan import Batch, Plan, record_path
 LONG_AGO = 1
 """Time (s since 1970) of the stamp of what is whole."""
 
+UNFINISHED = ".unfinished"
+"""Folder beside records where batches of long runs keep what they have, see `solver.checkpoint`."""
+
 
 LEAST = len("whole\n")
 """Size of the stamp of what is whole, or is not there, of no rank."""
@@ -264,6 +267,25 @@ def tidy(folder: Path, now: Staged, outputs: Iterable[Path]) -> None:
                 path.unlink()
             elif path.stat().st_mtime > time.time():
                 os.utime(path)
+
+
+def forget(folder: Path, batches: Iterable[Batch]) -> None:
+    """Remove what was kept of long runs that no batch is to solve any more.
+
+    Parameters
+    ----------
+    folder
+        The study's folder of results.
+    batches
+        Batches that are to be solved.
+    """
+    wanted = set()
+    for batch in batches:
+        wanted |= {f"batch-{batch.name}", *(point.id for point in batch.points)}
+    for path in (folder / "records" / UNFINISHED).glob("*.npz"):
+        name = path.stem.rpartition("-")[0] if path.stem.startswith("batch-") else path.stem
+        if name not in wanted:
+            path.unlink(missing_ok=True)
 
 
 def _write(path: Path, text: str) -> None:
