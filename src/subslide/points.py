@@ -263,8 +263,6 @@ def to_dict(point: Point, keys: Sequence[str] = RUN_KEYS) -> dict[str, Any]:
     dict
         Value by key.
     """
-    if keys is RUN_KEYS:
-        return values.all_stated(point.chosen)
     return {key: values.stated(key, getattr(point, key)) for key in keys}
 
 

@@ -84,23 +84,6 @@ def stated(key: str, value: Any) -> Any:
     return float(value) + 0.0 if key in FLOATS else value  # -0.0 becomes 0.0
 
 
-def all_stated(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the values of all keys of a run as a configuration would state them.
-
-    Parameters
-    ----------
-    values
-        Value by key as a point holds it; defaults stand for what is left out, and other keys say nothing.
-
-    Returns
-    -------
-    dict
-        Value by key, in the order of `RUN_KEYS`.
-    """
-    chosen = {key: stated(key, value) for key, value in values.items() if key in _DEFAULTS}
-    return {**_DEFAULTS, "scene_options": {}, **chosen}
-
-
 def text(values: Mapping[str, Any], left_out: Collection[str]) -> str:
     """Return the text of a run's values in one number format and one order of keys.
 
@@ -158,9 +141,6 @@ def _part(key: str, value: Any) -> str:
 
 _word = functools.lru_cache(4096, typed=True)(_part)
 """The same for words, true and false, and whole numbers, of which a study has few."""
-
-_DEFAULTS = {key: stated(key, default_of(key)) for key in RUN_KEYS}
-"""Defaults of the keys of a run, as a configuration would state them."""
 
 _PARTS = {key: _part(key, default_of(key)) for key in sorted(RUN_KEYS)}
 """Texts of the defaults, in the order that they have in the text of a run."""

@@ -1,8 +1,8 @@
 """From a YAML file to a study: checked values, and the table of its points."""
 
+import functools
 from collections.abc import Collection
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +10,7 @@ from subslide.keys import schema, words
 from subslide.keys.designs import MOST_POINTS
 from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS, Point
-from subslide.study import choice, cost, designs, expansion, forms, whole_study
+from subslide.study import choice, designs, expansion, forms, limits, whole_study
 from subslide.study.designs import Design
 from subslide.study.expansion import Grid
 from subslide.study.yaml_files import read_yaml
@@ -52,12 +52,12 @@ class Study:
     asked: dict[str, Any] = field(default_factory=dict)
     designs: tuple[dict[str, Any], ...] = ()
 
-    @cached_property
+    @functools.cached_property
     def points(self) -> tuple[Point, ...]:
         """Points in the order of the tables."""
         return tuple(point for _, point in self.runs)
 
-    @cached_property
+    @functools.cached_property
     def companions(self) -> tuple[tuple[Point, str, Point], ...]:
         """Run, role and point of each companion: none without bands, else two for each run on a uniform grid."""
         return tuple(
@@ -67,7 +67,7 @@ class Study:
             for role, ratio in COARSENING.items()
         )
 
-    @cached_property
+    @functools.cached_property
     def solved(self) -> tuple[Point, ...]:
         """Points to solve, without repeats: the runs, then those companions that are not runs as well."""
         companions = (point for *_, point in self.companions)
@@ -79,6 +79,12 @@ class Study:
         if self.keep_at_least:
             return self.keep_at_least
         return "all" if len(self.solved) <= MOST_KEPT_WHOLE else "summary"
+
+    @property
+    def batch_seconds(self) -> float:
+        """Seconds that a job shall work for."""
+        default: float = schema.properties()["batch_seconds"]["default"]
+        return float(self.asked.get("batch_seconds") or default)
 
     @property
     def keep_at_least(self) -> str:
@@ -136,7 +142,7 @@ def make_study(values: dict) -> Study:
     study = Study(whole["study"], figures, tuple(runs.values()), bands, dict(values), tuple(listed))
     alone = sum(not choice.is_fitted(point) for point in study.points) if bands else 0
     _check_count(len(runs) + alone * len(COARSENING), ", companions for bands among them")
-    cost.check(study.solved, whole, "the study")
+    limits.check(study.solved, whole, "the study", study.keep)
     return study
 
 
@@ -180,7 +186,7 @@ def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
             value = value[0]
         single[key] = schema.checked(key, value, names.get(key, key))
     point = resolve(single, names)[1]
-    cost.check([point], whole, "the run")
+    limits.check([point], whole, "the run")
     return point
 
 
