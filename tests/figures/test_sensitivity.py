@@ -2,6 +2,7 @@
 
 import importlib
 import math
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 
 from subslide import catalogue
 from subslide.keys.schema import ConfigError
+from subslide.pages import sensitivity
 from subslide.results import StudyRun
 from subslide.results.listing import Companion
 from subslide.study.config import make_study
@@ -208,6 +210,26 @@ def test_figures_draw(name, failing):
         assert "9 runs lack an answer" in words(figure)
     if name == "sensitivity_laws":
         assert "4 runs have no logarithm" in words(figure)
+
+
+def test_the_page_quotes_indices_and_laws(whole):
+    text = Path("docs/sensitivity.md").read_text(encoding="utf-8")
+    page = sensitivity.page(text, whole)
+    for start, end in sensitivity.MARKS:
+        lines = page.split(start)[1].split(end)[0].strip().splitlines()
+        assert len(lines) > 10
+        assert len({line.count("|") for line in lines}) == 1
+    assert sensitivity.page(page, whole) == page
+    row = chosen(whole.table("indices"), design=2, output="L_f_1pc", kind="first", input="m")
+    assert f"{row['estimate']:.3f} ({row['low']:.3f} to {row['high']:.3f})" in page
+    with pytest.raises(ConfigError, match="the page lacks the lines"):
+        sensitivity.page("nothing", whole)
+
+
+def test_indices_in_words(whole):
+    text = indices.text(whole)
+    assert "design 2 (a_H a_2 r m), L_f_1pc" in text
+    assert len(text.splitlines()) == 6 * 10 - 1
 
 
 def test_studies_with_a_saltelli_design_get_these_figures(whole):

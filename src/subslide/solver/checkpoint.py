@@ -17,8 +17,8 @@ import numpy as np
 from subslide import source_hash
 from subslide.files import replacing
 from subslide.points import Point
-from subslide.solver.answer import Snapshot
 from subslide.solver.run import Run
+from subslide.solver.snapshots import Snapshot
 
 EVERY = 300.0
 """Seconds from one saving to the next: a run that takes less is never saved."""
