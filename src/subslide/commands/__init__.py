@@ -14,7 +14,8 @@ from subslide.files import Stopped
 from subslide.keys import words
 
 MODULES = tuple(
-    f"{__name__}.{name}" for name in ("solving", "making", "tabulating", "sensitivity", "showing")
+    f"{__name__}.{name}"
+    for name in ("solving", "planning", "making", "tabulating", "sensitivity", "emulating", "showing")
 )
 """Modules with verbs, in the order that help lists them."""
 

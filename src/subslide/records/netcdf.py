@@ -18,8 +18,12 @@ if TYPE_CHECKING:
     from subslide.solver.run import Run
 
 CHECKSUM = "checksum"
-COMPRESSED_FROM = 1 << 16
-"""Bytes from which a variable is compressed: below it, the gain is less than what chunks cost."""
+ENCODING = "_Encoding"
+"""Attribute of a table of characters, by which readers know that its rows are texts."""
+
+COMPRESSED_FROM = {False: 1 << 16, True: 1 << 12}
+"""Bytes from which a variable is compressed: below it, the gain is less than what chunks cost. Of summaries, whose
+numbers are rounded and whose texts are mostly alike, much less is left."""
 
 
 def write(path: Path | str, runs: list["Run"], keep: str = "all") -> None:
@@ -30,7 +34,7 @@ def write(path: Path | str, runs: list["Run"], keep: str = "all") -> None:
     path
         File, which is written whole or not at all.
     runs
-        Results of `solver.solve`, thinned (`records.thinning`).
+        Results of `solver.solve`, as `records.thinning.kept` gives them.
     keep
         What is kept of each, one of `subslide.keys.kept.WORDS`, which the record states.
 
@@ -40,10 +44,10 @@ def write(path: Path | str, runs: list["Run"], keep: str = "all") -> None:
         If what was read back is not what was written.
     """
     variables = layout.variables(runs)
-    attrs = {**provenance.attributes(runs, variables), "keep": keep}
+    attrs = provenance.attributes(runs, variables, keep)
     attrs[CHECKSUM] = digest(variables, attrs)
     with replacing(path) as temporary:
-        _store(temporary, variables, attrs)
+        _store(temporary, variables, attrs, small=keep == "summary")
         read(temporary)
 
 
@@ -64,10 +68,8 @@ def read(path: Path | str) -> tuple[dict[str, Variable], dict]:
         # by its bytes: the library takes a backslash in a path for a slash
         with netCDF4.Dataset("record", memory=path.read_bytes()) as data:
             data.set_auto_maskandscale(False)
-            variables = {
-                name: Variable(v.dimensions, _values(v), {key: v.getncattr(key) for key in v.ncattrs()})
-                for name, v in data.variables.items()
-            }
+            data.set_auto_chartostring(False)
+            variables = {name: _read(variable) for name, variable in data.variables.items()}
             attrs = {key: data.getncattr(key) for key in data.ncattrs()}
     except (OSError, RuntimeError, AttributeError, IndexError, ValueError) as error:
         raise RecordError(f"{path}: the file is damaged or not a NetCDF file ({error})") from None
@@ -105,10 +107,14 @@ def digest(variables: dict[str, Variable], attrs: dict) -> str:
     return total.hexdigest()
 
 
-def _values(variable: netCDF4.Variable) -> np.ndarray:
-    """Return the values of a variable of a file; texts as objects."""
-    values = variable[...]
-    return np.asarray(values, dtype=object if variable.dtype is str else None)
+def _read(variable: netCDF4.Variable) -> Variable:
+    """Return a variable of a file; texts as objects, also where they are a table of characters."""
+    dims, values = variable.dimensions, variable[...]
+    about = {key: variable.getncattr(key) for key in variable.ncattrs()}
+    if about.pop(ENCODING, None):
+        rows = np.ascontiguousarray(values).view(f"S{values.shape[-1]}")[..., 0]
+        return Variable(dims[:-1], np.strings.decode(rows, "utf-8").astype(object), about)
+    return Variable(dims, np.asarray(values, dtype=object if variable.dtype is str else None), about)
 
 
 def _attrs_text(attrs: dict) -> bytes:
@@ -117,23 +123,30 @@ def _attrs_text(attrs: dict) -> bytes:
     return json.dumps(plain, sort_keys=True).encode()
 
 
-def _store(path: Path, variables: dict[str, Variable], attrs: dict) -> None:
-    """Write variables and attributes to a NetCDF file."""
+def _store(path: Path, variables: dict[str, Variable], attrs: dict, small: bool) -> None:
+    """Write variables and attributes to a NetCDF file, small: texts as tables of characters."""
     with netCDF4.Dataset(os.fspath(path), "w", format="NETCDF4") as data:
+        data.set_auto_chartostring(False)
         for name, variable in variables.items():
-            for dim, size in zip(variable.dims, variable.values.shape, strict=True):
+            dims, values, about = variable.dims, variable.values, dict(variable.attrs)
+            if small and values.dtype.kind == "O":
+                texts = np.strings.encode(values.astype(str), "utf-8")
+                dims = (*dims, f"length_{texts.itemsize}")
+                values = texts.view("S1").reshape(*texts.shape, texts.itemsize)
+                about[ENCODING] = "utf-8"
+            for dim, size in zip(dims, values.shape, strict=True):
                 if dim not in data.dimensions:
                     data.createDimension(dim, size)
-            text = variable.values.dtype.kind == "O"
-            about = dict(variable.attrs)
+            text = values.dtype.kind == "O"
             target = data.createVariable(
                 name,
-                str if text else variable.values.dtype,
-                variable.dims,
+                str if text else values.dtype,
+                dims,
                 fill_value=about.pop("_FillValue", None),
-                compression="zlib" if not text and variable.values.nbytes >= COMPRESSED_FROM else None,
-                complevel=1,
+                compression="zlib" if not text and values.nbytes >= COMPRESSED_FROM[small] else None,
+                complevel=4 if small else 1,
             )
             target.setncatts(about)
-            target[...] = variable.values
+            target.set_auto_chartostring(False)
+            target[...] = values
         data.setncatts(attrs)

@@ -3,7 +3,6 @@
 import csv
 import functools
 import math
-import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, overload
@@ -11,10 +10,10 @@ from typing import TYPE_CHECKING, Any, TypeVar, overload
 import numpy as np
 
 from subslide import catalogue
-from subslide.files import RecordError
 from subslide.keys.schema import ConfigError
 from subslide.results import reading
-from subslide.results.listing import AGAIN, Companion, Listing, StudyRun, listed, verify
+from subslide.results.listing import Companion, Listing, StudyRun, listed, verify
+from subslide.results.opened import open_record, positions, trimmed  # noqa: F401
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -115,6 +114,42 @@ class Results:
                 verify(paths[batch])
                 held |= by_run.read(paths[batch], ids, names)
             yield from ((run, held[run.id]) for run in part)
+
+    def values(self, *names: str) -> dict[str, np.ndarray]:
+        """Return numbers and texts of every run, of whole batches at once.
+
+        Every batch is read and verified once, and nothing else of it stays in memory.
+
+        Parameters
+        ----------
+        names
+            Names of variables that hold one value a run, or some, such as one for each threshold.
+
+        Returns
+        -------
+        dict
+            Arrays by name, whose first axis is the runs of the study in the order of its tables.
+
+        Raises
+        ------
+        RecordError
+            If a record is missing or damaged, or lacks a run or a variable.
+        """
+        from subslide.records import by_run
+
+        places: dict[str, list[int]] = {}
+        for place, run in enumerate(self.runs_of_study):
+            places.setdefault(run.batch, []).append(place)
+        columns: dict[str, np.ndarray] = {}
+        for batch, those in places.items():
+            path = self._record_path(batch)
+            verify(path)
+            part = by_run.values(path, [self.runs_of_study[place].id for place in those], names)
+            for name, entries in part.items():
+                if name not in columns:
+                    columns[name] = np.empty((len(self.runs_of_study), *entries.shape[1:]), entries.dtype)
+                columns[name][those] = entries
+        return columns
 
     def record(self, name: str) -> "xr.Dataset":
         """Return the record of one run by its id, loaded, without the dimension `run` and without padding.
@@ -225,69 +260,6 @@ class Results:
                 np.isclose(entries, value, rtol=1e-9, atol=1e-12) if number else (entries == value).to_numpy()
             )
         return self.runs[chosen]
-
-
-def open_record(path: Path | str) -> "xr.Dataset":
-    """Return the dataset of a record, lazy (dask), with times as plain seconds; ConfigError if its path cannot be."""
-    import xarray as xr
-
-    if "\\" in os.path.abspath(path):
-        raise ConfigError(f"{path}: NetCDF takes '\\' for '/'; allowed: a path, and folders, without backslashes")
-    return xr.open_dataset(path, engine="netcdf4", chunks={}, decode_times=False)
-
-
-def trimmed(data: "xr.Dataset", name: str) -> "xr.Dataset":
-    """Return one run of a record, without the padding that other runs of its batch need.
-
-    Parameters
-    ----------
-    data
-        Dataset of the record.
-    name
-        Id of the run.
-
-    Returns
-    -------
-    xarray.Dataset
-        The same without the dimension `run`, as lazy as it was. Cells of a run on a uniform grid are at `x` (x), whatever
-        its record has; on a fitted one they move, `x` (snapshot, cell), and have a `cell_width`.
-
-    Raises
-    ------
-    RecordError
-        If the record lacks the run.
-    """
-    places = np.flatnonzero(data["id"].values == name)
-    if not len(places):
-        raise RecordError(f"{data.encoding.get('source', 'a record')}: the record lacks the run {name}; {AGAIN}")
-    one = data.isel(run=int(places[0]))
-    one = one.isel(step=slice(int(np.isfinite(one["time"].values).sum())))
-    if along := [dim for dim in ("x", "y", "cell") if dim in one.dims]:
-        snapshots = int(np.isfinite(one["snapshot_time"].values).sum())
-        inside = np.isfinite(one["h2"].isel(snapshot=0).values)
-        one = one.isel(snapshot=slice(snapshots), **dict.fromkeys(along, inside))
-    if "cell" in one.dims and str(one["grid"].values) == "uniform":
-        one = one.assign_coords(x=one["x"].variable[0]).swap_dims(cell="x").drop_vars("cell_width")
-    return one
-
-
-def positions(record: Any, snapshot: int) -> np.ndarray:
-    """Return the centres of a run's cells at a snapshot.
-
-    Parameters
-    ----------
-    record
-        The run's record, or its variables by name, see `Results.record` and `Results.each`.
-    snapshot
-        Place of the snapshot; cells of a uniform grid are always at the same.
-
-    Returns
-    -------
-    ndarray
-        Distances (cells) in m from the axis.
-    """
-    x = np.asarray(record["x"])
-    return x if x.ndim == 1 else x[snapshot]
 
 
 def _empty(name: str) -> "pd.DataFrame":

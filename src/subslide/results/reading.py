@@ -11,7 +11,8 @@ from subslide import catalogue
 from subslide.files import RecordError
 from subslide.keys import words
 from subslide.naming import FINISHED
-from subslide.points import FLOATS, INTEGERS, RUN_KEYS, STANDS_FOR, options_text
+from subslide.keys.values import FLOATS, INTEGERS, RUN_KEYS, STANDS_FOR
+from subslide.points import options_text
 from subslide.results.listing import AGAIN, StudyRun
 
 if TYPE_CHECKING:

@@ -1,7 +1,6 @@
 """From the scaled samples and snapshots of a loop to a run in SI units and words."""
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
@@ -16,44 +15,12 @@ from subslide.naming import FINISHED, FRONT_THRESHOLDS, STATUSES
 from subslide.points import Point
 from subslide.solver.arrest import time_of_arrest
 from subslide.solver.run import Run
+from subslide.solver.snapshots import Snapshot, in_metres, shared
 from subslide.study import choice
 
 SMEARED = 4
 """Cells by which a scheme lets a wave be early: where the box was tried against one six times as wide, the surface then
 differed by 0.3 % at most before `wave_free_until`, from 100 cells on and a_H 0.2 to 10."""
-
-
-class Snapshot(NamedTuple):
-    """Time (s) of a snapshot, and scaled centres along x, profiles there and, where they are kept, fields, by name.
-
-    Where cells move, their widths too, else None.
-    """
-
-    time: float
-    x: np.ndarray
-    width: np.ndarray | None
-    profile: dict[str, np.ndarray]
-    fields: dict[str, np.ndarray] | None
-
-
-def taken(time: float, model: Model, fields: bool) -> Snapshot:
-    """Return the snapshot of a model as it is.
-
-    Parameters
-    ----------
-    time
-        Time (s) that it has reached.
-    model
-        What is run.
-    fields
-        Whether fields are kept.
-
-    Returns
-    -------
-    Snapshot
-        Copies of its profiles and fields.
-    """
-    return Snapshot(time, model.x, model.width, model.profile(), model.fields() if fields else None)
 
 
 def describe(status: str, model: Model, sampled: np.ndarray, time_scale: float) -> str:
@@ -178,60 +145,6 @@ def wave_free_until(point: Point, room: float, time: np.ndarray, eta: np.ndarray
     return float(np.interp(room, gone, time))
 
 
-def shared(model: Model, snapshots: list[Snapshot]) -> tuple[np.ndarray, list[dict[str, np.ndarray]]]:
-    """Return centres along x, and the profiles there, of the box and beyond it as far as any grains went.
-
-    Parameters
-    ----------
-    model
-        What was run, in its last state.
-    snapshots
-        Snapshots, of which those of an open sea may have fewer cells than the last.
-
-    Returns
-    -------
-    tuple of ndarray and list
-        Scaled centres (nx), or of each snapshot (snapshots, nx) where cells move, and the profiles by name, each (nx),
-        of each snapshot.
-    """
-    if model.width is not None:
-        return np.stack([snapshot.x for snapshot in snapshots]), [one.profile for one in snapshots]
-    x = model.x
-    kept = np.abs(x) < model.half_width
-    profiles = []
-    for snapshot in snapshots:
-        before = int(np.searchsorted(x, snapshot.x[0]))
-        ends = before, len(x) - before - len(snapshot.x)
-        profile = snapshot.profile
-        if any(ends):
-            profile = {name: np.pad(values, ends, mode="edge") for name, values in profile.items()}
-        profiles.append(profile)
-        kept |= profiles[-1]["h2"] > model.settings.dry_depth
-    first, last = np.flatnonzero(kept)[[0, -1]]
-    part = slice(first, last + 1)
-    return x[part], [{name: values[part] for name, values in profile.items()} for profile in profiles]
-
-
-def in_metres(values: list[dict[str, np.ndarray]], name: str, height: float) -> np.ndarray:
-    """Return one of the profiles or fields of each snapshot in m.
-
-    Parameters
-    ----------
-    values
-        Scaled profiles or fields, by name, of each snapshot.
-    name
-        The wanted one.
-    height
-        Column height (m).
-
-    Returns
-    -------
-    ndarray
-        Values (snapshots, ...).
-    """
-    return np.stack([of_snapshot[name] for of_snapshot in values]) * height
-
-
 def make_run(
     point: Point,
     model: Model,
@@ -276,10 +189,10 @@ def make_run(
     series = series_in_si(model, point, sampled, stood=clock[k.REST_SINCE] == 0)
     front = series["x_front"]
     status, detail = ended
-    final = status in FINISHED
     free = wave_free_until(point, room, time, series["max_abs_eta_outside"])
     alone = model.settings.layers == 1
-    rested = clock[k.REST_SINCE] >= 0 and final
+    final = status in FINISHED
+    rested = final and clock[k.REST_SINCE] >= 0
     return Run(
         point=point,
         model=model.name,

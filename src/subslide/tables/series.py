@@ -75,7 +75,7 @@ def samples(results: "Results") -> Iterator[tuple[str, np.ndarray, dict[str, np.
     """Give each run's id, times (s) and samples by quantity; quantities it lacks are left out."""
     for run, record in results.each("time", *naming.SERIES):
         values = {f"x_front_{label}": record["x_front"][n] for label, n in FRONT_LABELS.items()}
-        values.update((name, record[name]) for name in QUANTITIES if name not in values)
+        values.update((name, record[name]) for name in QUANTITIES if name in record)
         known = {name: entries for name, entries in values.items() if np.isfinite(entries).any()}
         yield run.id, record["time"], known
 
