@@ -27,8 +27,8 @@ WORDS = {
 LEAN = {key: tuple(ENTRIES[key]["lean"]) for key in RUN_KEYS if "lean" in ENTRIES[key]}
 """Values that the lean kernels know, of each key that has others."""
 
-MOST_KEPT = 1 << 18
-"""Choices that are remembered: those of the largest study, and some."""
+MARK = "_choice"
+"""Attribute of points whose choice is known; no value of theirs can change afterwards."""
 
 
 class Choice(NamedTuple):
@@ -58,9 +58,16 @@ class Choice(NamedTuple):
     general: bool
 
 
-@functools.lru_cache(MOST_KEPT)
 def of(point: Point) -> Choice:
     """Return how a point is solved: by its own model, or for `auto` by the cheapest that gives all that is asked."""
+    kept = vars(point)
+    if MARK not in kept:
+        kept[MARK] = _chosen(point)
+    return kept[MARK]
+
+
+def _chosen(point: Point) -> Choice:
+    """Return how a point is solved."""
     symmetry = scenes.symmetry(point)
     model, reason = point.model, "asked for"
     if model == "auto":
