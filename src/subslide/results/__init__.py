@@ -102,18 +102,35 @@ class Results:
         """
         from subslide.records import by_run
 
-        runs = list(self.runs_of_study if among is None else among)
-        paths = {run.batch: self._record_path(run.batch) for run in runs}
-        size = sum(path.stat().st_size for path in paths.values() if path.exists())
-        count = max(1, math.ceil(len(runs) / max(1, math.ceil(size / MOST_BYTES))))
-        for first in range(0, len(runs), count):
-            part = runs[first : first + count]
+        for part in self.parts(among):
             held: dict[str, dict[str, Any]] = {}
             for batch in dict.fromkeys(run.batch for run in part):
                 ids = {run.id for run in part if run.batch == batch}
-                verify(paths[batch])
-                held |= by_run.read(paths[batch], ids, names)
+                path = self._record_path(batch)
+                verify(path)
+                held |= by_run.read(path, ids, names)
             yield from ((run, held[run.id]) for run in part)
+
+    @overload
+    def parts(self, among: None = None) -> Iterator[list[StudyRun]]: ...
+
+    @overload
+    def parts(self, among: Iterable[Solved] | None) -> Iterator[list[Solved]]: ...
+
+    def parts(self, among: Iterable[StudyRun | Companion] | None = None) -> Iterator[list]:
+        """Give runs in parts, in their order, so that the records of each take no more than MOST_BYTES."""
+        runs = list(self.runs_of_study if among is None else among)
+        paths = {self._record_path(run.batch) for run in runs}
+        size = sum(path.stat().st_size for path in paths if path.exists())
+        count = max(1, math.ceil(len(runs) / max(1, math.ceil(size / MOST_BYTES))))
+        yield from (runs[first : first + count] for first in range(0, len(runs), count))
+
+    def opened(self, batch: str) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Return the variables and attributes of the record of a batch, verified, see `records.netcdf.read`."""
+        from subslide.records import netcdf
+
+        verify(self._record_path(batch))
+        return netcdf.read(self._record_path(batch))
 
     def values(self, *names: str) -> dict[str, np.ndarray]:
         """Return numbers and texts of every run, of whole batches at once.
