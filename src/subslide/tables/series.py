@@ -146,9 +146,8 @@ def flattened(variables: "Mapping[str, Variable]", ids: Sequence[str], thinned: 
             values[:, n] = variables["x_front"].values[places, FRONTS[name]]
         elif name in variables:
             values[:, n] = variables[name].values[places]
-    there: np.ndarray = ~np.isnan(values) if thinned else np.isfinite(time)[:, None]
-    has: np.ndarray = np.isfinite(values).any(axis=2)
-    taken = np.logical_and(there, has[:, :, None])
+    there = np.logical_not(np.isnan(values)) if thinned else np.isfinite(time)[:, None]
+    taken = np.logical_and(there, np.any(np.isfinite(values), axis=2, keepdims=True))
     values[np.isinf(values)] = np.nan
     counts = taken.sum(axis=2)
     ends = np.cumsum(counts.sum(axis=1))
