@@ -13,7 +13,7 @@ from subslide import catalogue
 from subslide.keys.schema import ConfigError
 from subslide.results import reading
 from subslide.results.listing import Companion, Listing, StudyRun, listed, verify
-from subslide.results.opened import open_record, positions, trimmed  # noqa: F401
+from subslide.results.opened import NotKeptError, open_record, positions, trimmed  # noqa: F401
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -182,6 +182,28 @@ class Results:
             if run.id == name:
                 return trimmed(self.batch(run.batch), name).load()
         raise KeyError(f"{name}: there is no such run in {self.folder}")
+
+    def profiles(self, name: str) -> "xr.Dataset":
+        """Return `record` of a run; NotKeptError if its study did not keep profiles."""
+        record = self.record(name)
+        if "h2" not in record:
+            raise NotKeptError(f"profiles, which the study did not keep: keep: {record.attrs['keep']}")
+        return record
+
+    def curves(self, quantity: str, ids: Iterable[str]) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Return times (s) and samples of a quantity of the table of series, by id, of the runs among `ids` that have it.
+
+        Of a large study only these are read.
+        """
+        path, wanted = self._table_path("series"), list(ids)
+        if path.suffix == ".parquet":
+            rows = reading.rows_of(path, quantity=[quantity], id=wanted)
+        else:
+            rows = self.series[(self.series["quantity"] == quantity) & self.series["id"].isin(wanted)]
+        return {
+            str(key): (those["time"].to_numpy(), those["value"].to_numpy())
+            for key, those in rows.groupby("id", sort=False)
+        }
 
     @functools.lru_cache(maxsize=64)  # noqa: B019 - a Results lives as long as its process
     def batch(self, batch: str) -> "xr.Dataset":

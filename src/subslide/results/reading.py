@@ -70,6 +70,31 @@ def table(path: Path, name: str, runs: Sequence[StudyRun]) -> "pd.DataFrame":
     return rows
 
 
+def rows_of(path: Path, **wanted: list[str]) -> "pd.DataFrame":
+    """Return the rows of a Parquet file whose columns have some of the values that are wanted; no others are held.
+
+    Parameters
+    ----------
+    path
+        The file.
+    wanted
+        Texts by column.
+
+    Raises
+    ------
+    RecordError
+        If the file is no such table: one line.
+    """
+    import pandas as pd
+
+    filters = [(column, "in", values) for column, values in wanted.items()]
+    try:
+        return pd.read_parquet(path, filters=filters)
+    except (ValueError, TypeError, KeyError, NotImplementedError, OSError) as error:
+        what = words.cut(words.one_line(str(error)), 120)
+        raise RecordError(f"{path} is not that table of this study ({what}); {AGAIN}") from None
+
+
 def _check(rows: "pd.DataFrame", name: str, runs: Sequence[StudyRun], even: bool) -> None:
     """Raise a ValueError unless rows are those of a table of the study, as far as its module and the runs tell."""
     from pandas.api.types import is_numeric_dtype

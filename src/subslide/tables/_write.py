@@ -39,7 +39,9 @@ def lacking(name: str, results: "Results") -> str:
     runs = results.runs_of_study
     figures = whole_study.figures_of("auto", [run.point for run in runs])
     named = tuple((run.numerics, run.point) for run in runs)
-    return tables.load(name).needs(Study(results.folder.name, figures, named, results.has_bands))
+    return tables.load(name).needs(
+        Study(results.folder.name, figures, named, results.has_bands, results.asked)
+    )
 
 
 def write(name: str, results: "Results") -> list[Path]:
