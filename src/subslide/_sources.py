@@ -9,7 +9,7 @@ PACKAGE = Path(__file__).resolve().parent
 COMPILED = ("kernels", "naming.py", "keys/names.py")
 """Rooms whose code is compiled, or is read by code that is."""
 
-JUDGING = ("results", "exact", "laboratory", "tables")
+JUDGING = ("results", "exact", "laboratory", "sensitivity", "emulator", "tables")
 """Rooms after the records, which make tables of them."""
 
 SHOWING = ("figures", "pages", "commands", "__main__.py", "_early.py", "catalogue.py")

@@ -8,6 +8,7 @@ import itertools
 import os
 import signal
 import sys
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,11 +18,12 @@ from subslide.files import Stopped, write_text
 from subslide.keys import plain, schema, words
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
-from subslide.study import config, outputs, scene_options
+from subslide.study import config, cost, outputs, pace, scene_options, staging
 from subslide.study.batches import read_batch, spec_text
 from subslide.study.yaml_files import read_yaml
 
 if TYPE_CHECKING:
+    from subslide.solver.checkpoint import Keeper
     from subslide.solver.run import Run
 
 
@@ -93,7 +95,11 @@ def run(point: Point, threads: int, output: str) -> str:
 
 
 def solved(
-    point: Point, threads: int, progress: Callable[[float], object] | None = None, keep: str = "all"
+    point: Point,
+    threads: int,
+    progress: Callable[[float], object] | None = None,
+    keep: str = "all",
+    keeper: "Keeper | None" = None,
 ) -> "Run":
     """Return the run of a point as a record keeps it, so that a batch fits into memory.
 
@@ -107,6 +113,8 @@ def solved(
         Function that is called with the time (s) that the run has reached.
     keep
         What the record keeps of it, one of `subslide.keys.kept.WORDS`.
+    keeper
+        What keeps the state of a long run, and gives it back.
 
     Returns
     -------
@@ -116,7 +124,7 @@ def solved(
     from subslide import solver
     from subslide.records import thinning
 
-    run = solver.solve(point, threads=threads, progress=progress, profiles=keep == "all")
+    run = solver.solve(point, threads=threads, progress=progress, keeper=keeper, profiles=keep == "all")
     return thinning.kept(run, keep)
 
 
@@ -142,6 +150,7 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
     ConfigError
         If the file is no batch file, see `study.batches.read_batch`, or an output is none, see `study.outputs.check`.
     """
+    from subslide.solver.checkpoint import Keeper
     from subslide.study.locks import at_work
 
     points, keep = read_batch(spec)
@@ -150,12 +159,23 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
     if ledger is not None:
         outputs.check(ledger, [*inputs, output, checksums.beside(output)], "--ledger", ".json")
     results: list[Run] = []
+    begun, resumed = 0.0, False
     with at_work(Path(os.path.realpath(output)).parent):
+        keeper = Keeper(Path(output).parent / staging.UNFINISHED, Path(output).stem, points, keep)
         try:
             for point in points:
-                results.append(solved(point, threads, keep=keep))
+                before = keeper.take(point)
+                resumed = resumed or before is not None
+                results.append(before or solved(point, threads, keep=keep, keeper=keeper))
                 say(summary(results[-1]))
+                if not before:
+                    keeper.add(results[-1])
+                begun = begun or time.process_time()  # the first run waits for kernels
             keep_batch(results, output, ledger, keep)
+            keeper.forget()
+            if threads == 1 and not resumed:
+                estimated = sum(cost.seconds(point, keep) for point in points[1:])
+                pace.learn(pace.kind(points[0], keep), time.process_time() - begun, estimated)
         except BaseException as error:
             if not (ledger and results):
                 raise
@@ -270,8 +290,6 @@ def _value_of_text(text: Any, name: str) -> Any:
 
 def _progress(point: Point) -> Callable[[float], None]:
     """Return a function that shows on the terminal the time that a run has reached, once it has taken a while."""
-    import time
-
     start = last = time.monotonic()
     aim = "until rest" if point.t_end is None else f"of {point.t_end:.4g} s"
 

@@ -1,5 +1,7 @@
 """What a record keeps of a run: all, its series, or a summary that holds their course and every number."""
 
+import importlib
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -20,6 +22,7 @@ COLUMNS = [
     make_point({"scene": "slab", "cells": 40}),
 ]
 
+FIGURES = ("fig04_profiles_r0", "fig06_fronts")
 NUMBERS = st.floats(-1e3, 1e3).filter(lambda value: value == 0 or abs(value) > 1e-20)
 """Single precision has no smaller ones to the last digit."""
 
@@ -145,3 +148,12 @@ def test_tables_follow_from_each_form(tmp_path, write_tables, solve_study, monke
             assert np.abs(passed - rows["value"]).max() <= allowed(rows["value"].to_numpy())
         else:
             assert kept.empty
+    draws_with_a_word(tables["summary"], monkeypatch)
+
+
+def draws_with_a_word(results, monkeypatch):
+    """A figure of profiles says that there are none; one of series draws what is there, and reads no other rows."""
+    monkeypatch.setattr(type(results), "series", property(lambda self: pytest.fail("all series were read")))
+    profiles, fronts = (importlib.import_module(f"subslide.figures.{name}").draw(results) for name in FIGURES)
+    assert "did not keep" in profiles.get_suptitle()
+    assert len(fronts.axes[0].lines) > 1

@@ -70,7 +70,7 @@ def test_what_a_failed_job_has_solved_is_kept(study, tmp_path, monkeypatch, make
     failing = set()
     (tmp_path / "records/0001p2.nc").write_bytes(b"mine")
 
-    def solve(point, threads, keep):
+    def solve(point, threads, **rest):
         if point.a_H in failing:
             raise MemoryError
         return make_run(point)
@@ -91,7 +91,7 @@ def test_what_a_failed_job_has_solved_is_kept(study, tmp_path, monkeypatch, make
 
 
 def test_a_job_that_has_solved_nothing_leaves_nothing(study, tmp_path, monkeypatch):
-    def solve(point, threads, keep):
+    def solve(point, threads, **rest):
         raise Stopped(signal.SIGTERM)
 
     monkeypatch.setattr(jobs, "solved", solve)

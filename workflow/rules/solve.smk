@@ -14,19 +14,19 @@ def sealed(*paths):
     return [file for path in paths for file in (path, checksums.beside(path))]
 
 
-def stamp(name, outputs, whole):
+def stamp(name, outputs, whole, rank=0):
     """Return the input by which a job starts again where what it made is not whole, as `whole()` tells."""
     if CARRIED:
         return []
-    return staging.stamp(HOME, name, outputs, whole()) if workflow.is_main_process else HOME / name
+    return staging.stamp(HOME, name, outputs, whole(), rank) if workflow.is_main_process else HOME / name
 
 
 RECORDS = [RESULTS / f"records/{batch}.nc" for batch in STAGED.specs]
 SEALED_RECORDS = sealed(*RECORDS)
 POINTS = sealed(RESULTS / "points.json")
 
-for batch in STAGED.specs:
-    stamp(f"batch-{batch}", [RESULTS / f"records/{batch}.nc"], lambda: not PLAN.batches[batch].text)
+for rank, batch in enumerate(reversed(STAGED.specs)):  # the costliest of new batches are the first of them
+    stamp(f"batch-{batch}", [RESULTS / f"records/{batch}.nc"], lambda: not PLAN.batches[batch].text, rank)
 
 
 # The runs of the study and their order: tables follow from it.

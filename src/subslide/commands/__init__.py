@@ -13,7 +13,10 @@ import subslide
 from subslide.files import Stopped
 from subslide.keys import words
 
-MODULES = tuple(f"{__name__}.{name}" for name in ("solving", "making", "tabulating", "showing"))
+MODULES = tuple(
+    f"{__name__}.{name}"
+    for name in ("solving", "making", "tabulating", "sensitivity", "emulating", "showing")
+)
 """Modules with verbs, in the order that help lists them."""
 
 

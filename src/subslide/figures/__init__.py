@@ -9,8 +9,9 @@ TITLE : str
 CATEGORY : str
     Heading in the report: a digit, by which headings are sorted, and words, such as ``"2 Front of the grains"``.
 NEEDS : dict of str to tuple
-    For each key of a run named here, the values that a study must all have for the figure to make sense; left out where
-    any study will do. ``figures: auto`` draws the figure in every such study.
+    For each key of a run named here, the values that a study must all have for the figure to make sense, and as
+    ``design`` the kinds of designs; left out where any study will do. ``figures: auto`` draws the figure in every
+    such study.
 draw(results) -> matplotlib.figure.Figure
     The figure of a finished study (`subslide.results.Results`). It is decorated with `_style.styled`, reads tables and
     records only, writes no file, and draws the same pixels for the same results. It raises `_style.NoRunsError` where

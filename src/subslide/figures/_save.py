@@ -47,7 +47,8 @@ def save(name: str, results: Path, output: Path) -> list[Path]:
     if plain.control(str(output)) or (output.exists() and not output.is_dir()):
         raise ConfigError(f"--output: {output} is no folder; allowed: a folder, made if it is not there")
     study = Results(results)
-    if lack := whole_study.lacking(name, [run.point for run in study.runs_of_study]):
+    kinds = {one["kind"] for one in study.designs}
+    if lack := whole_study.lacking(name, [run.point for run in study.runs_of_study], kinds):
         raise ConfigError(
             f"--results: {results}: {name} needs runs with {lack}, which this study does not have"
         )

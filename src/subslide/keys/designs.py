@@ -90,40 +90,30 @@ ENTRY: Entry = {
 }
 
 
-def form_schema(entry: Entry) -> Entry:
-    """Return the JSON Schema of the forms that may stand for the list of a numeric axis.
+FORM = {"$ref": "#/$defs/form"}
+"""JSON Schema of a form that stands for the list of a numeric axis."""
 
-    Parameters
-    ----------
-    entry
-        JSON Schema of one value.
-
-    Returns
-    -------
-    Entry
-        The schema: a mapping with one form.
-    """
-    counted = [entry, entry, {"type": "integer", "minimum": 2, "maximum": MOST_POINTS}]
-    last = {"linspace": counted, "geomspace": counted, "arange": [entry, entry, {"type": "number"}]}
-    return _one_of({name: _tuple(items) for name, items in last.items()})
+DESIGN = {"$ref": "#/$defs/design"}
+DESIGN_SCHEMA: Entry = {"anyOf": [DESIGN, {"type": "array", "items": DESIGN}]}
+"""JSON Schema of the key `design`: one design, or a list of them."""
 
 
-def design_schema(lists: dict[str, Entry], numbers: tuple[str, ...]) -> Entry:
-    """Return the JSON Schema of the key `design`.
+def definitions(lists: dict[str, Entry], numbers: tuple[str, ...]) -> dict[str, Entry]:
+    """Return the parts of the published schema to which those of keys refer.
 
     Parameters
     ----------
     lists
-        JSON Schema of each key that may be an axis.
+        JSON Schema of the list of each key that may be an axis.
     numbers
         Those of them that take numbers.
 
     Returns
     -------
-    Entry
-        The schema: one design, or a list of them.
+    dict
+        JSON Schema of a form, a design, what it goes over, and a distribution, by name.
     """
-    over = {**OVER, "properties": dict.fromkeys((*numbers, FRICTION), _distribution())}
+    over = {**OVER, "properties": {key: {"$ref": "#/$defs/distribution"} for key in (*numbers, FRICTION)}}
     over["additionalProperties"] = False
     kinds: dict[str, Entry] = {"file": PATH}
     m = {word: FRICTION_ENTRY[word] for word in ("type", "minimum", "maximum")}
@@ -136,13 +126,24 @@ def design_schema(lists: dict[str, Entry], numbers: tuple[str, ...]) -> Entry:
     }
     for kind, (_, options) in DESIGNS.items():
         if options:
-            properties = {name: over if name == "over" else about for name, about in options.items()}
+            properties = {
+                name: {"$ref": "#/$defs/over"} if name == "over" else about for name, about in options.items()
+            }
             needed = [name for name, about in options.items() if "default" not in about]
             kinds[kind] = {"type": "object", "properties": properties, "additionalProperties": False}
             kinds[kind]["required"] = needed
         kinds[kind] = {**kinds[kind], "description": DESIGNS[kind][0]}
     one = _one_of({kind: kinds[kind] for kind in DESIGNS})
-    return {"anyOf": [one, {"type": "array", "items": one}]}
+    return {"form": _form(), "design": one, "over": over, "distribution": _distribution()}
+
+
+def _form() -> Entry:
+    """Return the JSON Schema of a form; its numbers must lie in the range of the key."""
+    number: Entry = {"type": "number"}
+    counted = [number, number, {"type": "integer", "minimum": 2, "maximum": MOST_POINTS}]
+    return _one_of(
+        {name: _tuple([number] * 3 if "step" in parts else counted) for name, parts in FORMS.items()}
+    )
 
 
 def _distribution() -> Entry:

@@ -36,7 +36,8 @@ def study_schema(options: dict[str, dict[str, Entry]]) -> dict[str, Any]:
     keys["scene_options"] |= {"properties": _options(options), "additionalProperties": False}
     axes = [key for key in (*schema.with_role("preset"), *schema.run_keys()) if schema.is_axis(key)]
     numbers = tuple(key for key in axes if schema.is_real(ENTRIES[key]))
-    keys["design"] |= designs.design_schema({key: keys[key]["anyOf"][1] for key in axes}, numbers)
+    keys["design"] |= designs.DESIGN_SCHEMA
+    lists = {key: {"$ref": f"#/properties/{key}/anyOf/1"} for key in axes}
     del keys["design"]["type"]
     case_keys = (*schema.with_role("preset", "design"), *schema.run_keys())
     keys["cases"]["items"] = _mapping({key: {"$ref": f"#/properties/{key}"} for key in case_keys})
@@ -46,7 +47,7 @@ def study_schema(options: dict[str, dict[str, Entry]]) -> dict[str, Any]:
         "description": "Keys of a study. A key of a run may be a list where it is an axis: the study is the product of"
         " its axes and designs.",
     }
-    return {**about, **_mapping(keys), "required": ["study"]}
+    return {**about, **_mapping(keys), "required": ["study"], "$defs": designs.definitions(lists, numbers)}
 
 
 def _mapping(properties: dict[str, Any]) -> dict[str, Any]:
@@ -70,7 +71,7 @@ def _property(about: Entry, axis: bool) -> dict[str, Any]:
     value = {word: rule for word, rule in about.items() if word not in OURS}
     if axis:
         listed = [{"type": "array", "items": value, "minItems": 1}]
-        forms = [designs.form_schema(value)] if schema.is_real(about) or schema.is_integer(about) else []
+        forms = [designs.FORM] if schema.is_real(about) or schema.is_integer(about) else []
         value = {"anyOf": [value, *listed, *forms]}
     unit = f" ({unit_of(about)})" if unit_of(about) else ""
     told = {"description": about["description"] + unit}

@@ -1,22 +1,18 @@
 """One dimension: a radius (round scenes, `radial`) or a line, with one layer or two."""
 
-import functools
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
 from subslide.kernels.advance_axial import advance_axial
-from subslide.kernels.arrays import GHOSTS, Mesh, Settings, Track, Watch
+from subslide.kernels.arrays import GHOSTS, Settings, Track, Watch
 from subslide.kernels.boundary import OPEN, PAPER, WALL
 from subslide.models import space
+from subslide.models.axial_layout import LARGEST_LAYOUT, layout_of
 from subslide.models.limits import LARGEST_BOX, LOST_GRAINS, MOST_CELLS
 from subslide.models.model import Model
 from subslide.scenes import Grid
-
-MOST_LAYOUTS, LARGEST_LAYOUT = 64, 1 << 14
-"""Layouts that are kept for later runs, and the cells of the largest of these."""
 
 
 class Axial(Model):
@@ -137,6 +133,22 @@ class Axial(Model):
         """Centres (n) of the cells over R."""
         return self.layout.x
 
+    def state(self) -> dict[str, np.ndarray]:
+        """Return the cells, their edges, what the ends of the grid are, and from when a sea has an end."""
+        sea = {
+            "edges": self.grid.edges,
+            "walls": np.array(self.walls),
+            "free_until": np.array(self.free_until),
+        }
+        return super().state() | sea
+
+    def resume(self, state: dict[str, np.ndarray]) -> None:
+        """Put a state back, on a sea as long as it was."""
+        self.walls = int(state["walls"][0]), int(state["walls"][1])
+        self.free_until = float(state["free_until"])
+        self._lay([state[name] for name in self.variables], self.grid._replace(edges=state["edges"]))
+        self.watch = self._watch(self.watch.least_grains, self.watch.still1, self.watch.still2)
+
     def make_room(self, now: float) -> None:
         """Give the sea as many still cells more at each open end, or make that an end like the paper's.
 
@@ -200,101 +212,3 @@ class Axial(Model):
 def _longer(values: np.ndarray, before: int, after: int) -> np.ndarray:
     """Return values (n) with so many more at both ends, like the first and the last."""
     return np.concatenate([np.full(before, values[0]), values, np.full(after, values[-1])])
-
-
-class Layout(NamedTuple):
-    """Cells of a line or radius, which many runs share: nothing in it ever changes.
-
-    Attributes
-    ----------
-    x
-        Centres (n) over R.
-    mesh
-        Their sizes.
-    columns
-        First padded column where the surface is watched and the one after the last, those beside the axis and beyond R.
-    """
-
-    x: np.ndarray
-    mesh: Mesh
-    columns: tuple[int, int, int, int]
-
-
-@functools.lru_cache(MOST_LAYOUTS)
-def layout_of(
-    geometry: str,
-    dx: float,
-    span: tuple[int, int],
-    box: tuple[int, int],
-    right_wall: bool,
-    watched: float,
-    real: np.dtype,
-) -> Layout:
-    """Return the layout of a line or a radius.
-
-    Parameters
-    ----------
-    geometry, dx
-        As of a `Grid`.
-    span
-        Number of the first cell, counted from the axis, and how many there are.
-    box, right_wall, real
-        As in `mesh_of`.
-    watched
-        Cells from the axis within which the surface is watched.
-
-    Returns
-    -------
-    Layout
-        Its arrays are shared.
-    """
-    first, cells = span
-    grid = Grid(geometry, dx, np.arange(first, first + cells + 1) * dx)
-    x = grid.centres
-    near = np.flatnonzero(np.abs(x) < math.ceil(watched) * dx)
-    columns = (near[0], near[-1] + 1, np.searchsorted(x, 0.0), np.searchsorted(x, 1.0))
-    start, stop, beside, beyond = (int(column) + GHOSTS for column in columns)
-    return Layout(x, mesh_of(grid, box, right_wall, real), (start, stop, beside, beyond))
-
-
-def mesh_of(grid: Grid, box: tuple[int, int], right_wall: bool, real: np.dtype) -> Mesh:
-    """Return the `Mesh` of a line or a radius.
-
-    Parameters
-    ----------
-    grid
-        Cells over R; on a radius they are rings about the axis.
-    box
-        Cells from the axis to the (left, right) end of the box of which volumes are, the left ones counted below 0.
-    right_wall
-        Whether the right end is a wall.
-    real
-        Type of the working precision.
-
-    Returns
-    -------
-    Mesh
-        Arrays of that type, the sums float64.
-    """
-    n, dx, x = len(grid.centres), grid.dx, grid.centres
-    radial = grid.geometry == "radius"
-    padded = n + 2 * GHOSTS
-    r = x if radial else np.ones(n)
-    weight = np.zeros(padded, real)
-    weight[GHOSTS:-GHOSTS] = r * dx * (2 * np.pi if radial else 1)
-    source = np.zeros(padded, real)
-    if radial:
-        source[GHOSTS:-GHOSTS] = -0.5 / x
-        source[GHOSTS - 1] = -source[GHOSTS]  # mirrored, so that nothing passes a wall
-        source[-GHOSTS] = -source[-GHOSTS - 1] if right_wall else -0.5 / (x[-1] + dx)
-    first = GHOSTS + box[0] - round(grid.edges[0] / dx)
-    left = -np.cumsum(weight[:first][::-1], dtype=np.float64)[::-1]
-    total = np.concatenate([left, [0.0], np.cumsum(weight[first:], dtype=np.float64)])
-    return Mesh(
-        area=(grid.edges if radial else np.ones(n + 1)).astype(real),
-        inverse_volume=(1 / (r * dx)).astype(real),
-        source=source,
-        weight=weight,
-        total=total,
-        size=float(total[first + box[1] - box[0]]),
-    )

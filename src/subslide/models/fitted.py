@@ -85,6 +85,15 @@ class Fitted(Model):
         """Widths (n) of the cells now."""
         return np.diff(self.motion.edges)
 
+    def state(self) -> dict[str, np.ndarray]:
+        """Return the cells and their edges."""
+        return super().state() | {"edges": self.motion.edges}
+
+    def resume(self, state: dict[str, np.ndarray]) -> None:
+        """Put a state back, its cells where they were."""
+        super().resume(state)
+        self.motion.edges[:] = state["edges"]
+
     def release(self) -> None:
         """Give the arrays to runs to come."""
         space.returned(self.space)

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 import numpy as np
 
 from subslide.kernels.arrays import Cells, Settings, Track
-from subslide.models.limits import first_sheared, first_suspect
+from subslide.models.limits import first_sheared, first_suspect, inner
 
 
 class Model(ABC):
@@ -53,6 +53,15 @@ class Model(ABC):
     def width(self) -> np.ndarray | None:
         """Widths (nx) of cells that move, now, over R; None where they do not."""
         return None
+
+    def state(self) -> dict[str, np.ndarray]:
+        """Return what steps move on, by name: views of the cells without ghosts, and what a model has beside them."""
+        return inner(self.cells, self.variables)
+
+    def resume(self, state: dict[str, np.ndarray]) -> None:
+        """Put back what `state` returned of a model of the same point and box."""
+        for name, values in inner(self.cells, self.variables).items():
+            values[...] = state[name]
 
     def make_room(self, now: float) -> None:  # noqa: B027
         """Give an open sea, which has come to the end of its arrays at the scaled time `now`, longer ones."""

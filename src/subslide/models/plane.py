@@ -125,6 +125,15 @@ class Plane(Model):
         """Centres (nx) of the cells along x over R."""
         return self._x
 
+    def state(self) -> dict[str, np.ndarray]:
+        """Return the cells, and what the edges of the box know of the waves that have left it."""
+        return super().state() | {"rim": self.rim}
+
+    def resume(self, state: dict[str, np.ndarray]) -> None:
+        """Put a state back."""
+        super().resume(state)
+        self.rim[:] = state["rim"]
+
     def advance(self, thresholds: tuple[float, ...], track: Track) -> None:
         """Run the time loop; see `advance_planar`."""
         advance_planar(

@@ -1,6 +1,5 @@
 """A finished study for those who read it: its runs, their records run by run, and its tables."""
 
-import csv
 import functools
 import math
 from collections.abc import Iterable, Iterator
@@ -9,14 +8,11 @@ from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import numpy as np
 
-from subslide import catalogue
-from subslide.keys.schema import ConfigError
-from subslide.results import reading
-from subslide.results.listing import Companion, Listing, StudyRun, listed, verify
+from subslide.results.listing import Companion, StudyRun, verify
+from subslide.results.of_tables import Tables
 from subslide.results.opened import NotKeptError, open_record, positions, trimmed  # noqa: F401
 
 if TYPE_CHECKING:
-    import pandas as pd
     import xarray as xr
 
 MOST_BYTES = 250e6
@@ -25,7 +21,7 @@ MOST_BYTES = 250e6
 Solved = TypeVar("Solved", bound=StudyRun | Companion)
 
 
-class Results:
+class Results(Tables):
     """Read-only view of a study's folder.
 
     Parameters
@@ -33,40 +29,6 @@ class Results:
     folder
         Folder of a study that was run, such as `results/paper`.
     """
-
-    def __init__(self, folder: Path | str):
-        """Keep the folder; nothing is read before it is asked for."""
-        self.folder = Path(folder)
-
-    @functools.cached_property
-    def runs_of_study(self) -> tuple[StudyRun, ...]:
-        """Return the runs in the order of the tables; ConfigError if the folder is none of a study."""
-        return self._listed.runs
-
-    @functools.cached_property
-    def companions(self) -> tuple[Companion, ...]:
-        """Return the coarser runs that those on uniform grids have in a study with bands; none without."""
-        return self._listed.companions
-
-    @property
-    def has_bands(self) -> bool:
-        """Return whether the study was made with `bands: true`."""
-        return self._listed.has_bands
-
-    @property
-    def asked(self) -> dict[str, Any]:
-        """Return the study's configuration by key, as its file states it; empty for one of the version before."""
-        return self._listed.asked
-
-    @property
-    def designs(self) -> tuple[dict[str, Any], ...]:
-        """Return what points.json says of each Saltelli design: see `study.config.Study.designs`."""
-        return self._listed.designs
-
-    @functools.cached_property
-    def _listed(self) -> Listing:
-        """Return what points.json states."""
-        return listed(self.folder)
 
     @overload
     def each(self, *names: str, among: None = None) -> Iterator[tuple[StudyRun, dict[str, Any]]]: ...
@@ -126,7 +88,7 @@ class Results:
         yield from (runs[first : first + count] for first in range(0, len(runs), count))
 
     def opened(self, batch: str) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Return the variables and attributes of the record of a batch, verified, see `records.netcdf.read`."""
+        """Return the variables and attributes of the record of a batch, verified: see `records.netcdf.read`."""
         from subslide.records import netcdf
 
         verify(self._record_path(batch))
@@ -190,21 +152,6 @@ class Results:
             raise NotKeptError(f"profiles, which the study did not keep: keep: {record.attrs['keep']}")
         return record
 
-    def curves(self, quantity: str, ids: Iterable[str]) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """Return times (s) and samples of a quantity of the table of series, by id, of the runs among `ids` that have it.
-
-        Of a large study only these are read.
-        """
-        path, wanted = self._table_path("series"), list(ids)
-        if path.suffix == ".parquet":
-            rows = reading.rows_of(path, quantity=[quantity], id=wanted)
-        else:
-            rows = self.series[(self.series["quantity"] == quantity) & self.series["id"].isin(wanted)]
-        return {
-            str(key): (those["time"].to_numpy(), those["value"].to_numpy())
-            for key, those in rows.groupby("id", sort=False)
-        }
-
     @functools.lru_cache(maxsize=64)  # noqa: B019 - a Results lives as long as its process
     def batch(self, batch: str) -> "xr.Dataset":
         """Return the record of a batch, verified once and then read lazily (dask)."""
@@ -218,91 +165,3 @@ class Results:
     def _record_path(self, batch: str) -> Path:
         """Return the path of the record of a batch."""
         return self.folder / "records" / f"{batch}.nc"
-
-    def table(self, name: str) -> "pd.DataFrame":
-        """Return a table of the study by its name, as it was last written.
-
-        Raises
-        ------
-        ConfigError
-            If the study's folder has no such table.
-        RecordError
-            If the table is not as it was written, or not that of this study.
-        """
-        return reading.table(self._table_path(name), name, self.runs_of_study)
-
-    def lines(self, name: str) -> list[dict[str, str]]:
-        """Return the rows of a table that is CSV as text by column; faults are those of `table`."""
-        path = self._table_path(name)
-        reading.table(path, name, self.runs_of_study)
-        with open(path, newline="", encoding="utf-8") as file:
-            return list(csv.DictReader(file))
-
-    def _table_path(self, name: str) -> Path:
-        """Return the path of a table that is there."""
-        paths = [self.folder / "tables" / f"{name}.{kind}" for kind in ("parquet", "csv")]
-        for path in paths:
-            if path.is_file():
-                verify(path)
-                return path
-        raise ConfigError(
-            f"{paths[-1]}: there is no such file; allowed: the folder of a study with this table"
-        )
-
-    @functools.cached_property
-    def runs(self) -> "pd.DataFrame":
-        """Return the table of runs, one row a run."""
-        return self.table("runs")
-
-    @functools.cached_property
-    def series(self) -> "pd.DataFrame":
-        """Return the tidy table of series: id, time (s), quantity, value."""
-        return self.table("series")
-
-    @functools.cached_property
-    def bands(self) -> "pd.DataFrame":
-        """Return the tidy table of bands, a row for each run, quantity and time; empty for a study without bands."""
-        return self.table("bands") if self.has_bands else _empty("bands")
-
-    @functools.cached_property
-    def errors(self) -> "pd.DataFrame":
-        """Return the table of errors against exact solutions, of a study that has any."""
-        return self.table("errors")
-
-    @functools.cached_property
-    def work_precision(self) -> "pd.DataFrame":
-        """Return the table of errors and seconds; empty for a study without a sweep of numerics."""
-        try:
-            return self.table("work_precision")
-        except ConfigError:
-            return _empty("work_precision")
-
-    @functools.cached_property
-    def atlas(self) -> "pd.DataFrame":
-        """Return the stability atlas, one row a run, of a study that draws it."""
-        return self.table("atlas")
-
-    @functools.cached_property
-    def cfl(self) -> "pd.DataFrame":
-        """Return the Courant numbers that were tried, of a study that draws the atlas."""
-        return self.table("cfl")
-
-    def select(self, **values: Any) -> "pd.DataFrame":
-        """Return the rows of the table of runs whose columns equal the given values; numbers to nine digits."""
-        import pandas as pd
-
-        chosen = np.ones(len(self.runs), bool)
-        for column, value in values.items():
-            entries = self.runs[column]
-            number = pd.api.types.is_numeric_dtype(entries) and not isinstance(value, str)
-            chosen &= (
-                np.isclose(entries, value, rtol=1e-9, atol=1e-12) if number else (entries == value).to_numpy()
-            )
-        return self.runs[chosen]
-
-
-def _empty(name: str) -> "pd.DataFrame":
-    """Return a table without rows, by the columns of its module."""
-    import pandas as pd
-
-    return pd.DataFrame(columns=catalogue.layout(name).columns)

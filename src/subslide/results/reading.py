@@ -11,7 +11,8 @@ from subslide import catalogue
 from subslide.files import RecordError
 from subslide.keys import words
 from subslide.naming import FINISHED
-from subslide.points import FLOATS, INTEGERS, RUN_KEYS, STANDS_FOR, options_text
+from subslide.keys.values import FLOATS, INTEGERS, RUN_KEYS, STANDS_FOR
+from subslide.points import options_text
 from subslide.results.listing import AGAIN, StudyRun
 
 if TYPE_CHECKING:
@@ -80,6 +81,11 @@ def rows_of(path: Path, **wanted: list[str]) -> "pd.DataFrame":
     wanted
         Texts by column.
 
+    Returns
+    -------
+    pandas.DataFrame
+        The rows.
+
     Raises
     ------
     RecordError
@@ -92,7 +98,7 @@ def rows_of(path: Path, **wanted: list[str]) -> "pd.DataFrame":
         return pd.read_parquet(path, filters=filters)
     except (ValueError, TypeError, KeyError, NotImplementedError, OSError) as error:
         what = words.cut(words.one_line(str(error)), 120)
-        raise RecordError(f"{path} is not that table of this study ({what}); {AGAIN}") from None
+        raise RecordError(f"{path} is not the table {path.stem} of this study ({what}); {AGAIN}") from None
 
 
 def _check(rows: "pd.DataFrame", name: str, runs: Sequence[StudyRun], even: bool) -> None:

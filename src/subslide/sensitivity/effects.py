@@ -23,7 +23,7 @@ class Effect(NamedTuple):
     sampling
         Half-width for the sampling alone.
     grid
-        Half-width for the grid error of the outputs, all of which may err alike.
+        Half-width for the grid error of the outputs, all of which may err alike; not a number without half-widths.
     least, most
         Mean where failed runs have the least or the largest output of the others; `mean` without failed runs.
     """
@@ -38,12 +38,12 @@ class Effect(NamedTuple):
     @property
     def low(self) -> np.ndarray:
         """Lower end of the band."""
-        return self.least - self.sampling - self.grid
+        return self.least - self.sampling - np.nan_to_num(self.grid)
 
     @property
     def high(self) -> np.ndarray:
         """Upper end of the band."""
-        return self.most + self.sampling + self.grid
+        return self.most + self.sampling + np.nan_to_num(self.grid)
 
 
 def effect(
@@ -83,7 +83,7 @@ def effect(
     total = sizes.sum(axis=0)
     mean, sampling = ratios(sums(filled), sizes)
     least, most = (sums(values).sum(axis=0) / total for values in (low, high))
-    errors = np.zeros_like(filled) if half_widths is None else np.nan_to_num(half_widths).reshape(count, -1)
+    errors = np.full_like(filled, np.nan) if half_widths is None else half_widths.reshape(count, -1)
     return Effect(
         sums(column).sum(axis=0) / total, mean, sampling, sums(errors).sum(axis=0) / total, least, most
     )

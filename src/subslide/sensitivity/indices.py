@@ -47,7 +47,7 @@ class Indices(NamedTuple):
     sampling
         Half-width for the sampling alone.
     grid
-        Half-width for the grid error of the outputs.
+        Half-width for the grid error of the outputs; not a number without half-widths of theirs.
     least, most
         Bounds of the index where failed runs may have any output that others have; the estimate without failed runs.
     """
@@ -61,12 +61,12 @@ class Indices(NamedTuple):
     @property
     def low(self) -> np.ndarray:
         """Lower end of the band."""
-        return self.least - self.sampling - self.grid
+        return self.least - self.sampling - np.nan_to_num(self.grid)
 
     @property
     def high(self) -> np.ndarray:
         """Upper end of the band."""
-        return self.most + self.sampling + self.grid
+        return self.most + self.sampling + np.nan_to_num(self.grid)
 
 
 def labels(inputs: int) -> list[Label]:
@@ -121,7 +121,7 @@ def indices(
     filled, low, high = ranges(outputs, (0, 1, 2))
     estimate, sampling = _ratios(_moments((filled, filled))[0])
     least, most = (estimate, estimate) if low is high else _bounds(_moments((low, high)))
-    grid = np.zeros_like(estimate)
+    grid = np.full_like(estimate, np.nan)
     if half_widths is not None:
         grid = _of_grid(filled, np.nan_to_num(half_widths), inputs, estimate)
     return Indices(estimate, sampling, grid, least, most)

@@ -11,6 +11,7 @@ from subslide.models.limits import LARGEST_BOX
 from subslide.naming import STATUSES
 from subslide.points import Point
 from subslide.solver.answer import describe, make_run, room_for_waves
+from subslide.solver.checkpoint import Keeper, Saved
 from subslide.solver.loop import Samples, advance_to, start_threads, warm_up
 from subslide.solver.run import Run
 from subslide.solver.snapshots import Snapshot, taken
@@ -46,6 +47,7 @@ def solve(
     point: Point,
     threads: int = 1,
     progress: Callable[[float], object] | None = None,
+    keeper: Keeper | None = None,
     profiles: bool = True,
 ) -> Run:
     """Return the `Run` of a point; a numerical failure is a status, never an exception.
@@ -58,6 +60,8 @@ def solve(
         Cores for one plane run; no result depends on it.
     progress
         Function that is called now and then with the time in s that the run has reached.
+    keeper
+        Where the state of a long run is saved, and was.
     profiles
         Whether profiles and fields are kept; all else has the same bits without.
 
@@ -73,13 +77,14 @@ def solve(
     """
     check_point(point)
     start_threads(threads)
-    box = first_box(point)
+    saved = keeper.under_way(point) if keeper else None
+    box = saved.box if saved else first_box(point)
     while True:
-        run = attempt(point, box, progress, profiles)
+        run = attempt(point, box, progress, keeper, saved, profiles)
         grown = math.ceil(box * GROWTH)
         if run.status != "left_domain" or choice.at_sea(point) or grown > LARGEST_BOX * point.half_cells:
             return run
-        box = grown
+        box, saved = grown, None
 
 
 def first_box(point: Point) -> int:
@@ -96,7 +101,14 @@ def first_box(point: Point) -> int:
     return math.ceil(min(max(box, room), LARGEST_BOX * box + SPARE))
 
 
-def attempt(point: Point, box: int, progress: Callable[[float], object] | None, profiles: bool = True) -> Run:
+def attempt(
+    point: Point,
+    box: int,
+    progress: Callable[[float], object] | None,
+    keeper: Keeper | None = None,
+    saved: Saved | None = None,
+    profiles: bool = True,
+) -> Run:
     """Return the run in a box of a size, its surface watched within the smallest box.
 
     Parameters
@@ -105,8 +117,10 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None, 
         The run.
     box
         Cells from the axis to the end of the box.
-    progress, profiles
+    progress, keeper, profiles
         As for `solve`.
+    saved
+        State in that box to go on from.
 
     Returns
     -------
@@ -125,9 +139,21 @@ def attempt(point: Point, box: int, progress: Callable[[float], object] | None, 
     kept = Samples()
     snapshots: list[Snapshot] = []
     wall = 0.0
-    for stop in sorted({*times, end}):
+    if saved:
+        model.resume(saved.model)
+        clock, wall, snapshots = saved.clock, saved.wall, saved.snapshots
+        kept = Samples(saved.samples)
+
+    def look(seconds: float) -> None:
+        """Show how far the run has come, and save it if that is due."""
+        if progress:
+            progress(clock[k.NOW] * time_scale)
+        if keeper and keeper.due:
+            keeper.save(point, Saved(box, model.state(), clock, kept.taken, snapshots, wall + seconds))
+
+    for stop in sorted({*times, end})[len(snapshots) :]:
         clock[k.STOP] = stop / time_scale
-        outcome, seconds = advance_to(model, clock, kept, lambda now: progress and progress(now * time_scale))
+        outcome, seconds = advance_to(model, clock, kept, look)
         wall += seconds
         reached = clock[k.NOW] >= clock[k.STOP]
         if reached and stop in times:

@@ -85,12 +85,19 @@ def _say(line: str) -> None:
 
 
 class Samples:
-    """Samples of a run, one for each instant, in one array that grows."""
+    """Samples of a run, one for each instant, in one array that grows.
 
-    def __init__(self) -> None:
-        """Begin with none."""
-        self._rows = np.empty((CHUNK, samples.COLUMNS))
+    Parameters
+    ----------
+    before
+        Samples (samples, columns) to go on from.
+    """
+
+    def __init__(self, before: np.ndarray | None = None) -> None:
+        """Begin with what is there."""
+        self._rows = np.empty((CHUNK, samples.COLUMNS)) if before is None else before
         self._counters = np.zeros(2, np.int64)
+        self._counters[k.SAMPLES] = 0 if before is None else len(before)
 
     @property
     def taken(self) -> np.ndarray:
@@ -116,7 +123,7 @@ class Samples:
         """
         first = max(0, int(self._counters[k.SAMPLES]) - 1)
         if first + most > len(self._rows):
-            longer = np.empty((2 * len(self._rows), samples.COLUMNS))
+            longer = np.empty((2 * len(self._rows) + most, samples.COLUMNS))
             longer[:first] = self._rows[:first]
             self._rows = longer
         self._counters[k.SAMPLES] = first
@@ -137,7 +144,8 @@ def advance_to(
     kept
         Gets the samples of this loop.
     look
-        Function that is called with the scaled time now and then.
+        Function that is called now and then with the seconds that this loop has taken, when model, clock and samples
+        are what it can go on from.
 
     Returns
     -------
@@ -155,7 +163,7 @@ def advance_to(
         seconds = time.perf_counter() - started
         samples_taken, outcome = track.counters.tolist()
         wall, step = wall + seconds, seconds / (samples_taken - first)
-        look(clock[k.NOW])
+        look(wall)
         if outcome == k.NO_ROOM:
             model.make_room(float(clock[k.NOW]))
         elif outcome != k.FULL:

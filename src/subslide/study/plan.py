@@ -20,8 +20,8 @@ from subslide.files import RecordError
 from subslide.keys import kept
 from subslide.keys.schema import ConfigError
 from subslide.points import Point, from_dict
-from subslide.study import rows
-from subslide.study.batches import MOST_BATCH_BYTES, spec_text, split
+from subslide.study import pace, rows
+from subslide.study.batches import MOST_BATCH_BYTES, Sharing, spec_text, split
 from subslide.study.config import Study
 
 NAME = re.compile(r"\d{4,9}(p\d{1,4})?")
@@ -71,9 +71,10 @@ class Batch(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """Name of a study, batches that hold its points, by name, and what points.json is to hold."""
+    """Name of a study, what it keeps of each run, batches that hold its points by name, and the text of points.json."""
 
     study: str
+    keep: str
     batches: dict[str, Batch]
     points_text: str
 
@@ -106,7 +107,7 @@ def record_path(folder: Path, name: str) -> Path:
     return folder / "records" / f"{name}.nc"
 
 
-def plan(study: Study, folder: Path) -> Plan:
+def plan(study: Study, folder: Path, cores: int = 2) -> Plan:
     """Return the plan of a study.
 
     Parameters
@@ -115,6 +116,8 @@ def plan(study: Study, folder: Path) -> Plan:
         The study.
     folder
         Its folder of results, which may be missing.
+    cores
+        How many jobs will work at the same time, which says how new points are shared out to them.
 
     Returns
     -------
@@ -138,11 +141,12 @@ def plan(study: Study, folder: Path) -> Plan:
         elif points:
             batches[name] = _to_solve(name, points, study.keep, *entry.state)
     new = [point for point in asked.values() if point.id not in owner]
+    sharing = Sharing(study.keep, study.batch_seconds, cores, pace.known())
     last = max((int(path.stem.partition("p")[0]) for path in _files(folder)), default=0)
-    for number, unsolved in enumerate(split(new), last + 1):
+    for number, unsolved in enumerate(split(new, sharing), last + 1):
         batches[f"{number:04d}"] = _to_solve(f"{number:04d}", tuple(unsolved), study.keep)
     owner |= {point.id: batch.name for batch in batches.values() for point in batch.points}
-    return Plan(study.name, dict(sorted(batches.items())), _index(study, owner))
+    return Plan(study.name, study.keep, dict(sorted(batches.items())), _index(study, owner))
 
 
 def check_folders(folder: Path, home: Path) -> None:
@@ -242,8 +246,6 @@ def _index(study: Study, owner: dict[str, str]) -> str:
     A companion states the id of its run (`of`) and its role; a point that is companion of two runs is there twice.
     """
     head: dict[str, Any] = {"study": study.name, "keep": study.keep, "asked": study.asked}
-    if study.designs:
-        head["designs"] = study.designs
     sections: dict[str, list] = {
         "points": [
             ({"id": point.id, "batch": owner[point.id], "numerics": label}, point)
@@ -255,4 +257,6 @@ def _index(study: Study, owner: dict[str, str]) -> str:
             ({"id": point.id, "of": run.id, "role": role, "batch": owner[point.id]}, point)
             for run, role, point in study.companions
         ]
+    if study.designs:
+        head["designs"] = study.designs
     return rows.text(head, sections)

@@ -6,7 +6,8 @@ from typing import Any
 
 from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
-from subslide.points import RUN_KEYS, Point, from_dict, held, options_text, to_dict
+from subslide.keys.values import RUN_KEYS, held
+from subslide.points import Point, from_dict, to_dict
 from subslide.study import checking
 
 SHARED = "shared"
@@ -28,11 +29,14 @@ def unlike(points: Sequence[Point]) -> list[str]:
     list of str
         Keys, in their order.
     """
-    values = [vars(point) for point in points]
+    first = points[0]
     keys = [
-        key for key in RUN_KEYS if key != "scene_options" and any(v[key] != values[0][key] for v in values)
+        key
+        for key in RUN_KEYS
+        if key != "scene_options" and any(getattr(point, key) != getattr(first, key) for point in points)
     ]
-    if len(set(map(options_text, points))) > 1:  # text, since 1 and 1.0 are two values of an option
+    options = {repr(point.scene_options) for point in points}
+    if len(options) > 1:  # text, since 1 and 1.0 are two values of an option
         keys.append("scene_options")
     return keys
 

@@ -1,5 +1,7 @@
 """The keys that say something of a whole study and nothing of one run: its name, figures, bands, records, limits."""
 
+import functools
+from collections.abc import Callable, Collection
 from typing import Any
 
 from subslide import catalogue
@@ -45,7 +47,7 @@ def values_of(values: dict, names: dict[str, str] | None = None) -> dict[str, An
     return whole
 
 
-def figures_of(chosen: Any, points: list[Point]) -> tuple[str, ...]:
+def figures_of(chosen: Any, points: list[Point], designs: Collection[str] = ()) -> tuple[str, ...]:
     """Return the names of the figures of a study, in one order.
 
     Parameters
@@ -54,6 +56,8 @@ def figures_of(chosen: Any, points: list[Point]) -> tuple[str, ...]:
         Checked value of `figures`.
     points
         Runs of the study.
+    designs
+        Kinds of its designs that figures may need.
 
     Returns
     -------
@@ -66,17 +70,18 @@ def figures_of(chosen: Any, points: list[Point]) -> tuple[str, ...]:
         If a figure needs runs that the study does not have.
     """
     known = catalogue.names("figures")
+    present = _present(points, designs)
     if chosen == "none":
         return ()
     if chosen == "auto":
-        return tuple(name for name in known if not lacking(name, points))
+        return tuple(name for name in known if not _lacking(name, present))
     for name in chosen:
-        if lack := lacking(name, points):
+        if lack := _lacking(name, present):
             raise ConfigError(f"figures: {name} needs runs with {lack}, which this study does not have")
     return tuple(name for name in known if name in chosen)
 
 
-def lacking(name: str, points: list[Point]) -> str:
+def lacking(name: str, points: list[Point], designs: Collection[str] = ()) -> str:
     """Return the first 'key: value' that a figure needs and no point has, or ''.
 
     Parameters
@@ -85,15 +90,28 @@ def lacking(name: str, points: list[Point]) -> str:
         Name of the figure.
     points
         Runs of the study.
+    designs
+        Kinds of its designs.
 
     Returns
     -------
     str
         What is lacking, as a configuration would state it.
     """
+    return _lacking(name, _present(points, designs))
+
+
+def _present(points: list[Point], designs: Collection[str]) -> Callable[[str], set]:
+    """Return a function that gives the values which points have of a key, or the kinds of designs, and looks once."""
+    return functools.cache(
+        lambda key: set(designs) if key == "design" else {getattr(point, key) for point in points}
+    )
+
+
+def _lacking(name: str, present: Callable[[str], set]) -> str:
+    """Return the first 'key: value' that a figure needs and no point has, or ''."""
     for key, needed in catalogue.figure(name).needs.items():
-        present = {getattr(point, key) for point in points}
         for value in needed:
-            if value not in present:
+            if value not in present(key):
                 return f"{key}: {value}"
     return ""

@@ -37,11 +37,11 @@ def lacking(name: str, results: "Results") -> str:
         What the table's `needs` returns.
     """
     runs = results.runs_of_study
-    figures = whole_study.figures_of("auto", [run.point for run in runs])
+    kinds = {one["kind"] for one in results.designs}
+    figures = whole_study.figures_of("auto", [run.point for run in runs], kinds)
     named = tuple((run.numerics, run.point) for run in runs)
-    return tables.load(name).needs(
-        Study(results.folder.name, figures, named, results.has_bands, results.asked)
-    )
+    study = Study(results.folder.name, figures, named, results.has_bands, results.asked, results.designs)
+    return tables.load(name).needs(study)
 
 
 def write(name: str, results: "Results") -> list[Path]:

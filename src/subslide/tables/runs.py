@@ -10,8 +10,9 @@ import numpy as np
 
 from subslide import naming
 from subslide.keys import schema, words
+from subslide.keys.values import RUN_KEYS, STANDS_FOR
 from subslide.naming import FRONT_LABELS
-from subslide.points import RUN_KEYS, STANDS_FOR, options_text
+from subslide.points import options_text
 from subslide.records import scalars
 from subslide.study.config import Study
 from subslide.tables import bands

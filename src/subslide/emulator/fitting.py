@@ -1,0 +1,126 @@
+"""Gaussian processes of scaled values: kernels by scikit-learn, leave-one-out errors, and bands that hold them."""
+
+import warnings
+from typing import NamedTuple
+
+import numpy as np
+
+from subslide.emulator import coordinates
+from subslide.emulator.group import Group, Process, kernel, single
+
+MOST_TUNED = 400
+"""Points that the kernel's lengths are found from: more change them little and cost their cube."""
+
+COVERED = 0.95
+"""Share of errors that a band holds."""
+
+LEAST = 1e-7
+"""Relative errors below it count as it."""
+
+
+class Learned(NamedTuple):
+    """A group as it was learned, and values of its quantities, what leave-one-out predicts, and bands, each (n, q)."""
+
+    group: Group
+    values: np.ndarray
+    left_out: np.ndarray
+    bands: np.ndarray
+
+
+def learn(
+    kind: str, names: tuple[str, ...], inputs: np.ndarray, values: np.ndarray, doubt: np.ndarray
+) -> Learned:
+    """Return a group of quantities with one kernel.
+
+    Each is a law, exp of a quadratic in the coordinates, times a quadratic and a Gaussian process (Matern 5/2).
+
+    Parameters
+    ----------
+    kind
+        Its coordinates, see `coordinates.of`.
+    names
+        Its quantities (q).
+    inputs
+        Rows (n, 3) of a_H, r and m.
+    values, doubt
+        Values (n, q) and their standard deviations from the grids.
+
+    Returns
+    -------
+    Learned
+        The group, and what leave-one-out says of it.
+    """
+    z = coordinates.of(kind, inputs)
+    basis = coordinates.quadratic(z)
+    law = np.stack([_law(basis, column) for column in values.T], axis=1)
+    scale = np.exp(basis @ law)
+    trend = np.linalg.lstsq(basis, values / scale, rcond=None)[0]
+    rest = values / scale - basis @ trend
+    spread = np.maximum(rest.std(axis=0), LEAST)
+    noise = np.median((doubt / scale / spread) ** 2, axis=1) + 1e-10
+    lengths, white = _tuned(z, rest / spread, noise)
+    lengths = single(lengths)
+    points = single(z / lengths)  # as the file has them, so that weights fit them
+    covariance = kernel(points, points) + np.diag(noise / white[0] + white[1])
+    inverse = np.linalg.inv(covariance)
+    weights = inverse @ (rest / spread)
+    error = weights / np.diag(inverse)[:, None] * spread * scale
+    spread_of = coordinates.of_errors(z)
+    bands = np.stack(
+        [_band(spread_of, e / s, d / s) for e, s, d in zip(error.T, scale.T, doubt.T, strict=True)], axis=1
+    )
+    process = Process(points, lengths, weights * spread)
+    group = Group(kind, names, law, trend, bands, process)
+    return Learned(group, values, values - error, np.exp(spread_of @ bands) * scale)
+
+
+def band_of(kind: str, inputs: np.ndarray, errors: np.ndarray, doubt: np.ndarray) -> np.ndarray:
+    """Return the coefficients (12) of the logarithm of a relative band.
+
+    Parameters
+    ----------
+    kind
+        Coordinates.
+    inputs
+        Rows (n, 3) of a_H, r and m.
+    errors, doubt
+        Relative errors (n) of leave-one-out, and standard deviations of the values from the grids.
+
+    Returns
+    -------
+    ndarray
+        Coefficients of `coordinates.of_errors`.
+    """
+    return _band(coordinates.of_errors(coordinates.of(kind, inputs)), errors, doubt)
+
+
+def _law(basis: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Return the coefficients of the logarithm of a positive quadratic law through sizes of values."""
+    size = np.maximum(np.abs(values), 1e-3 * np.median(np.abs(values)))
+    return np.linalg.lstsq(basis, np.log(size), rcond=None)[0]
+
+
+def _tuned(z: np.ndarray, rest: np.ndarray, noise: np.ndarray) -> tuple[np.ndarray, tuple[float, float]]:
+    """Return the kernel's lengths (3), and its variance and white noise over it, of likelihood greatest."""
+    from sklearn.exceptions import ConvergenceWarning
+    from sklearn.gaussian_process import GaussianProcessRegressor
+    from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
+
+    some = slice(MOST_TUNED)
+    prior = ConstantKernel(10, (1e-2, 1e4)) * Matern([1, 1, 1], (0.05, 20), nu=2.5) + WhiteKernel(
+        1e-3, (1e-9, 1)
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ConvergenceWarning)  # a length at its end is one that does not matter
+        fitted = GaussianProcessRegressor(prior, alpha=noise[some], random_state=0).fit(z[some], rest[some])
+    product, white = fitted.kernel_.k1, fitted.kernel_.k2
+    variance = product.k1.constant_value
+    return product.k2.length_scale, (variance, white.noise_level / variance)
+
+
+def _band(basis: np.ndarray, errors: np.ndarray, doubt: np.ndarray) -> np.ndarray:
+    """Return the coefficients of ln(band): a quadratic through ln|error|, moved so that it holds COVERED of them."""
+    size = np.sqrt(errors**2 + doubt**2 + LEAST**2)
+    coefficients = np.linalg.lstsq(basis, np.log(size), rcond=None)[0]
+    coefficients[0] += np.quantile(np.log(size) - basis @ coefficients, COVERED)
+    return coefficients
