@@ -29,14 +29,11 @@ def unlike(points: Sequence[Point]) -> list[str]:
     list of str
         Keys, in their order.
     """
-    first = points[0]
-    keys = [
-        key
-        for key in RUN_KEYS
-        if key != "scene_options" and any(getattr(point, key) != getattr(first, key) for point in points)
-    ]
-    options = {repr(point.scene_options) for point in points}
-    if len(options) > 1:  # text, since 1 and 1.0 are two values of an option
+    first = {key: getattr(points[0], key) for key in RUN_KEYS if key != "scene_options"}
+    keys = [key for key, value in first.items() if any(getattr(point, key) != value for point in points)]
+    if (
+        len({repr(point.scene_options) for point in points}) > 1
+    ):  # text, since 1 and 1.0 are two values of an option
         keys.append("scene_options")
     return keys
 
