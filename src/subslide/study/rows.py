@@ -30,10 +30,13 @@ def unlike(points: Sequence[Point]) -> list[str]:
         Keys, in their order.
     """
     first = points[0]
+    chosen = frozenset().union(*(point.chosen for point in points)) - {
+        "scene_options"
+    }  # others are the defaults
     keys = [
         key
         for key in RUN_KEYS
-        if key != "scene_options" and any(getattr(point, key) != getattr(first, key) for point in points)
+        if key in chosen and any(getattr(point, key) != getattr(first, key) for point in points)
     ]
     options = {repr(point.scene_options) for point in points}
     if len(options) > 1:  # text, since 1 and 1.0 are two values of an option
@@ -91,7 +94,8 @@ class Reader:
         known = {key: value for key, value in self.shared.items() if key in KEYS}
         if check:
             known = {key: schema.checked(key, value, f"{SHARED}: {key}") for key, value in known.items()}
-        self.base = vars(from_dict(known))
+        chosen = from_dict(known).chosen
+        self.base = {key: value for key, value in chosen.items() if value != getattr(Point, key)}
 
     def point(self, row: Mapping[str, Any], others: frozenset[str] = frozenset(("id",))) -> Point:
         """Return the point of a row.
