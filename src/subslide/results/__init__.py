@@ -88,7 +88,20 @@ class Results(Tables):
         yield from (runs[first : first + count] for first in range(0, len(runs), count))
 
     def opened(self, batch: str, *names: str) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Return variables by name, and attributes, of the record of a batch, verified: see `records.netcdf.read`."""
+        """Return variables of the record of a batch, as `records.netcdf.read` does, with its file verified.
+
+        Parameters
+        ----------
+        batch
+            Name of the batch.
+        names
+            Names of the variables.
+
+        Returns
+        -------
+        tuple of dict
+            Variables by name, and attributes.
+        """
         from subslide.records import netcdf
 
         verify(self._record_path(batch))
