@@ -35,8 +35,8 @@ SPARE = 32
 """Cells that a sea starts with beyond where its waves may come: steps look some vectors ahead."""
 
 ALIKE = 128
-"""Round seas have whole multiples of so many cells, so that runs share arrays and layouts; of a line without still water
-at both ends the last bits depend on its length."""
+"""Round seas have whole multiples of so many cells, so that runs share arrays and layouts; of a line without still
+water at both ends the last bits depend on its length."""
 
 ENDED = {
     k.AT_REST: "ok",
