@@ -30,6 +30,13 @@ study: $(READY) $(PLUGINS)  ## check a study and run it: make study CONFIG=confi
 		$(BIN)/snakemake --configfile="$$CONFIG" $(if $(PROFILE),--workflow-profile "profiles/$$PROFILE",--cores "$$CORES")
 	@echo "The study in $$CONFIG is up to date: its tables, figures and report.html are in results/, under its name"
 
+.PHONY: plan prune
+plan: $(READY)  ## say what a study would cost, and write nothing: make plan CONFIG=config/mine.yaml
+	@$(BIN)/subslide plan -- "$$CONFIG"
+
+prune: $(READY)  ## remove records that hold no point which a study asks for: make prune CONFIG=config/mine.yaml
+	@$(BIN)/subslide prune -- "$$CONFIG"
+
 test: $(READY)  ## set up, then lint, format, types and every test
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
@@ -78,6 +85,12 @@ sensitivity: $(READY)  ## Sobol' indices, main effects and power laws of the pap
 	@$(BIN)/subslide unlock config/sensitivity.yaml
 	@$(BIN)/snakemake --configfile config/sensitivity.yaml --cores "$$CORES"
 	@echo "Indices, effects and laws are in results/sensitivity/tables, figures and report.html beside them"
+
+.PHONY: emulator
+emulator: $(READY)  ## make the emulator of the package anew: 4,000 runs, then fits (six minutes on 2 cores)
+	@$(BIN)/subslide unlock config/emulator.yaml
+	@$(BIN)/snakemake --configfile config/emulator.yaml --cores "$$CORES" --until points batch
+	@$(BIN)/subslide emulate results/emulator -o src/subslide/emulator/emulator.json
 
 setup: $(READY)  ## set up alone: .venv with the locked packages and this one
 

@@ -8,7 +8,7 @@ from snakemake.exceptions import WorkflowError
 from subslide import catalogue, checksums, source_hash, tables
 from subslide.keys.schema import ConfigError
 from subslide.keys.words import printable
-from subslide.study import asked, locks, plan, staging
+from subslide.study import asked, locks, plan, progress, staging
 from subslide.study.config import make_study
 from subslide.tables._write import remove as remove_table
 
@@ -78,7 +78,16 @@ rule all:
         SEALED_FIGURES,
 
 
+# One line for the whole study takes the place of Snakemake's for each job, which its own log has.
+if workflow.is_main_process:
+    REPORTER = progress.Reporter(HOME, PLAN.to_solve)
+
+
 onstart:
+    for handler in logger.handlers:
+        if handler.name == "DefaultStreamHandler" and not workflow.output_settings.verbose:
+            handler.addFilter(REPORTER.shows)
+            REPORTER.start()
     locks.sign(HOME)
     staging.tidy(
         RESULTS, STAGED, map(Path, [*RECORDS, *SEALED_TABLES, *SEALED_FIGURES, *rules.report.output])
@@ -87,3 +96,11 @@ onstart:
     # tables that the study had before, and has no more, would be read as if they were its own
     for name in set(catalogue.names("tables")) - set(TABLES):
         remove_table(name, RESULTS)
+
+
+onsuccess:
+    REPORTER.stop()
+
+
+onerror:
+    REPORTER.stop()

@@ -17,8 +17,9 @@ from subslide import checksums, scenes, source_hash
 from subslide.files import Stopped, write_text
 from subslide.keys import plain, schema, words
 from subslide.keys.schema import ConfigError
+from subslide.naming import FINISHED
 from subslide.points import Point
-from subslide.study import config, cost, outputs, pace, scene_options, staging
+from subslide.study import config, cost, outputs, pace, progress, scene_options, staging
 from subslide.study.batches import read_batch, spec_text
 from subslide.study.yaml_files import read_yaml
 
@@ -89,7 +90,7 @@ def run(point: Point, threads: int, output: str) -> str:
     """
     from subslide.records import netcdf as records
 
-    result = solved(point, threads, _progress(point) if sys.stderr.isatty() else None)
+    result = solved(point, threads, progress.of_run(point) if sys.stderr.isatty() else None)
     records.write(output, [result])
     return f"{summary(result)} -> {output}"
 
@@ -128,7 +129,14 @@ def solved(
     return thinning.kept(run, keep)
 
 
-def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callable[[str], object]) -> None:
+def batch(
+    spec: str,
+    threads: int,
+    output: str,
+    ledger: str | None,
+    say: Callable[[str], object],
+    counted: str | None = None,
+) -> None:
     """Solve the points of a batch file into one record, with its checksum beside it.
 
     Parameters
@@ -144,6 +152,8 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
         that are solved when the job is stopped, or fails, are kept as a batch of their own.
     say
         Function that is called with a line as each run ends, and with one on the record.
+    counted
+        Path of the file that counts the runs that have ended, for whoever waits.
 
     Raises
     ------
@@ -159,22 +169,24 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
     if ledger is not None:
         outputs.check(ledger, [*inputs, output, checksums.beside(output)], "--ledger", ".json")
     results: list[Run] = []
-    begun, resumed = 0.0, False
+    begun = estimated = 0.0
+    counter = progress.Counter(counted)
     with at_work(Path(os.path.realpath(output)).parent):
         keeper = Keeper(Path(output).parent / staging.UNFINISHED, Path(output).stem, points, keep)
         try:
             for point in points:
                 before = keeper.take(point)
-                resumed = resumed or before is not None
                 results.append(before or solved(point, threads, keep=keep, keeper=keeper))
                 say(summary(results[-1]))
+                counter.add(results[-1].status not in FINISHED)
                 if not before:
                     keeper.add(results[-1])
-                begun = begun or time.process_time()  # the first run waits for kernels
+                    estimated += cost.seconds(point, keep) if begun else 0.0
+                    begun = begun or time.process_time()  # the first run waits for kernels
             keep_batch(results, output, ledger, keep)
+            counter.write()
             keeper.forget()
-            if threads == 1 and not resumed:
-                estimated = sum(cost.seconds(point, keep) for point in points[1:])
+            if threads == 1:
                 pace.learn(pace.kind(points[0], keep), time.process_time() - begun, estimated)
         except BaseException as error:
             if not (ledger and results):
@@ -286,20 +298,3 @@ def _value_of_text(text: Any, name: str) -> Any:
         except ValueError as error:
             raise ConfigError(f"{name}: {words.cut(part)} {error}") from None
     return values if "," in text else values[0]
-
-
-def _progress(point: Point) -> Callable[[float], None]:
-    """Return a function that shows on the terminal the time that a run has reached, once it has taken a while."""
-    start = last = time.monotonic()
-    aim = "until rest" if point.t_end is None else f"of {point.t_end:.4g} s"
-
-    def show(reached: float) -> None:
-        nonlocal last
-        now = time.monotonic()
-        if now - start > 2 and now - last > 0.5:
-            last = now
-            print(
-                f"\r{reached:.4g} s {aim}, after {now - start:.0f} s  ", end="\r", file=sys.stderr, flush=True
-            )
-
-    return show

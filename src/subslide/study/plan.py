@@ -20,7 +20,7 @@ from subslide.files import RecordError
 from subslide.keys import kept
 from subslide.keys.schema import ConfigError
 from subslide.points import Point, from_dict
-from subslide.study import pace, rows
+from subslide.study import cost, pace, rows
 from subslide.study.batches import MOST_BATCH_BYTES, Sharing, spec_text, split
 from subslide.study.config import Study
 
@@ -79,6 +79,15 @@ class Plan(NamedTuple):
     points_text: str
 
     @property
+    def to_solve(self) -> dict[str, tuple[int, float]]:
+        """Number of points, and estimated seconds, of each batch that is to be solved, by its name."""
+        return {
+            name: (len(batch.points), sum(cost.seconds(point, self.keep) for point in batch.points))
+            for name, batch in self.batches.items()
+            if batch.text
+        }
+
+    @property
     def faults(self) -> list[str]:
         """Lines on batches that are solved again: those of damaged or missing records, and how many are outdated."""
         again = [batch for batch in self.batches.values() if batch.fault]
@@ -126,7 +135,7 @@ def plan(study: Study, folder: Path, cores: int = 2) -> Plan:
     """
     asked = {point.id: point for point in study.solved}
     stated = {}
-    for path in _files(folder):
+    for path in ledger_files(folder):
         if entry := _entry(path, record_path(folder, path.stem), asked, study.keep_at_least):
             stated[path.stem] = entry
     owner: dict[str, str] = {}
@@ -142,7 +151,7 @@ def plan(study: Study, folder: Path, cores: int = 2) -> Plan:
             batches[name] = _to_solve(name, points, study.keep, *entry.state)
     new = [point for point in asked.values() if point.id not in owner]
     sharing = Sharing(study.keep, study.batch_seconds, cores, pace.known())
-    last = max((int(path.stem.partition("p")[0]) for path in _files(folder)), default=0)
+    last = max((int(path.stem.partition("p")[0]) for path in ledger_files(folder)), default=0)
     for number, unsolved in enumerate(split(new, sharing), last + 1):
         batches[f"{number:04d}"] = _to_solve(f"{number:04d}", tuple(unsolved), study.keep)
     owner |= {point.id: batch.name for batch in batches.values() for point in batch.points}
@@ -189,8 +198,19 @@ def _to_solve(
     return Batch(name, points, text_hash(text), text, fault, damaged)
 
 
-def _files(folder: Path) -> list[Path]:
-    """Return the files of the ledger; backups and whatever else lies beside them are none."""
+def ledger_files(folder: Path) -> list[Path]:
+    """Return the files of the ledger; backups and whatever else lies beside them are none.
+
+    Parameters
+    ----------
+    folder
+        Folder of the study.
+
+    Returns
+    -------
+    list of Path
+        The files, by name.
+    """
     home = folder / "batches"
     entries = home.iterdir() if home.is_dir() else ()
     return sorted(path for path in entries if path.suffix == ".json" and NAME.fullmatch(path.stem))
@@ -246,6 +266,8 @@ def _index(study: Study, owner: dict[str, str]) -> str:
     A companion states the id of its run (`of`) and its role; a point that is companion of two runs is there twice.
     """
     head: dict[str, Any] = {"study": study.name, "keep": study.keep, "asked": study.asked}
+    if study.designs:
+        head["designs"] = study.designs
     sections: dict[str, list] = {
         "points": [
             ({"id": point.id, "batch": owner[point.id], "numerics": label}, point)
@@ -257,6 +279,4 @@ def _index(study: Study, owner: dict[str, str]) -> str:
             ({"id": point.id, "of": run.id, "role": role, "batch": owner[point.id]}, point)
             for run, role, point in study.companions
         ]
-    if study.designs:
-        head["designs"] = study.designs
     return rows.text(head, sections)
