@@ -6,7 +6,11 @@ CONFIG ?= config/paper.yaml
 BIN := .venv/bin
 READY := .venv/.ready
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
-export CONFIG CORES
+PROFILE ?=
+export CONFIG CORES PROFILE
+
+# The plugins of a profile lie in a folder of their own: every start of Snakemake that can import SLURM's takes 2 s more.
+PLUGINS := $(if $(PROFILE),$(if $(wildcard profiles/$(PROFILE)/requirements.lock),.venv/plugins/$(PROFILE)/.ready))
 
 # `make CONFIG=config/mine.yaml` means that study, never the paper's
 .DEFAULT_GOAL := $(if $(filter command,$(origin CONFIG)),study,paper)
@@ -17,11 +21,21 @@ paper: $(READY)  ## set up, then the paper's study to figures and report
 	@$(BIN)/snakemake --configfile config/paper.yaml --cores "$$CORES"
 	@echo "The paper's study is up to date: results/paper/report.html"
 
-study: $(READY)  ## check a study and run it: make study CONFIG=config/mine.yaml CORES=2
+study: $(READY) $(PLUGINS)  ## check a study and run it: make study CONFIG=config/mine.yaml CORES=2, or PROFILE=slurm
+	@[ -z "$$PROFILE" ] || [ -f "profiles/$$PROFILE/config.yaml" ] || \
+		{ echo "PROFILE: $$PROFILE is not allowed; allowed: $$(cd profiles && echo *)" >&2; exit 2; }
 	@$(BIN)/subslide check -- "$$CONFIG"
 	@$(BIN)/subslide unlock -- "$$CONFIG"
-	@$(BIN)/snakemake --configfile="$$CONFIG" --cores "$$CORES"
+	@$(if $(PROFILE),PYTHONPATH="$(PLUGINS:%/.ready=$(CURDIR)/%)$${PYTHONPATH:+:$$PYTHONPATH}" ) \
+		$(BIN)/snakemake --configfile="$$CONFIG" $(if $(PROFILE),--workflow-profile "profiles/$$PROFILE",--cores "$$CORES")
 	@echo "The study in $$CONFIG is up to date: its tables, figures and report.html are in results/, under its name"
+
+.PHONY: plan prune
+plan: $(READY)  ## say what a study would cost, and write nothing: make plan CONFIG=config/mine.yaml
+	@$(BIN)/subslide plan -- "$$CONFIG"
+
+prune: $(READY)  ## remove records that hold no point which a study asks for: make prune CONFIG=config/mine.yaml
+	@$(BIN)/subslide prune -- "$$CONFIG"
 
 test: $(READY)  ## set up, then lint, format, types and every test
 	$(BIN)/ruff check .
@@ -41,6 +55,10 @@ test-interpreted: $(READY)  ## small runs with the compiler off: kernels within 
 .PHONY: test-all
 test-all: $(READY)  ## every test and the long lanes: thousands of random points
 	@$(MAKE) --no-print-directory test PYTEST_OPTIONS=--long
+
+.PHONY: test-slurm
+test-slurm: $(READY) .venv/plugins/slurm/.ready  ## the cluster profile on a real one-node SLURM of its own (Debian, as root)
+	@$(BIN)/python tests/slurm/check.py
 
 .PHONY: bench
 bench: $(READY)  ## measure speed beside a C reference, cost growth, start-up; tables and figures in results/bench
@@ -85,6 +103,11 @@ $(READY): requirements.lock pyproject.toml
 	$(PIP) --require-hashes -r .venv/build.lock
 	$(PIP) --require-hashes --no-build-isolation --use-pep517 -r requirements.lock
 	$(PIP) --no-deps --no-build-isolation --editable .
+	@touch $@
+
+.venv/plugins/%/.ready: profiles/%/requirements.lock $(READY)
+	rm -rf $(@D)
+	$(PIP) --require-hashes --no-deps --target $(@D) -r $<
 	@touch $@
 
 docs: $(READY)  ## write what follows from the code: config/README.md, config/study.schema.json, docs/tables.md, docs/records.md

@@ -8,7 +8,7 @@ from snakemake.exceptions import WorkflowError
 from subslide import catalogue, checksums, source_hash, tables
 from subslide.keys.schema import ConfigError
 from subslide.keys.words import printable
-from subslide.study import asked, locks, plan, staging
+from subslide.study import asked, locks, plan, progress, staging
 from subslide.study.config import make_study
 from subslide.tables._write import remove as remove_table
 
@@ -20,6 +20,8 @@ BASE = Path(os.path.relpath(str(workflow.current_basedir)))  # a study may be mo
 
 PREFIX = workflow.modifier.path_modifier
 ARGUMENTS = workflow.config_settings.config_args
+
+MOST_AT_ONCE = 100  # jobs that new points are shared out to; Snakemake's number has no end on some clusters
 
 # Where nothing is shared with them, jobs are sent what they read with the sources, and times tell nothing.
 CARRIED = workflow.storage_settings.default_storage_provider is not None
@@ -40,7 +42,8 @@ if workflow.is_main_process:
         RESULTS = Path("results", STUDY.name)
         HOME = Path(".snakemake/subslide", STUDY.name)
         plan.check_folders(RESULTS, HOME)
-        PLAN = plan.plan(STUDY, RESULTS)
+        SIZE = workflow.resource_settings
+        PLAN = plan.plan(STUDY, RESULTS, min(SIZE.nodes or SIZE.cores or 1, MOST_AT_ONCE))
         STAGED = staging.stage(PLAN, HOME, tables.of_study(STUDY), STUDY.figures)
         locks.hold(HOME)
     except ConfigError as error:
@@ -75,11 +78,29 @@ rule all:
         SEALED_FIGURES,
 
 
+# One line for the whole study takes the place of Snakemake's for each job, which its own log has.
+if workflow.is_main_process:
+    REPORTER = progress.Reporter(HOME, PLAN.to_solve)
+
+
 onstart:
+    for handler in logger.handlers:
+        if handler.name == "DefaultStreamHandler" and not workflow.output_settings.verbose:
+            handler.addFilter(REPORTER.shows)
+            REPORTER.start()
     locks.sign(HOME)
     staging.tidy(
         RESULTS, STAGED, map(Path, [*RECORDS, *SEALED_TABLES, *SEALED_FIGURES, *rules.report.output])
     )
+    staging.forget(RESULTS, (batch for batch in PLAN.batches.values() if batch.text))
     # tables that the study had before, and has no more, would be read as if they were its own
     for name in set(catalogue.names("tables")) - set(TABLES):
         remove_table(name, RESULTS)
+
+
+onsuccess:
+    REPORTER.stop()
+
+
+onerror:
+    REPORTER.stop()

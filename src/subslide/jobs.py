@@ -8,6 +8,7 @@ import itertools
 import os
 import signal
 import sys
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,17 +17,15 @@ from subslide import checksums, scenes, source_hash
 from subslide.files import Stopped, write_text
 from subslide.keys import plain, schema, words
 from subslide.keys.schema import ConfigError
+from subslide.naming import FINISHED
 from subslide.points import Point
-from subslide.study import config, outputs, scene_options
+from subslide.study import config, cost, outputs, pace, progress, scene_options, staging
 from subslide.study.batches import read_batch, spec_text
 from subslide.study.yaml_files import read_yaml
 
 if TYPE_CHECKING:
     from subslide.solver.checkpoint import Keeper
     from subslide.solver.run import Run
-
-UNFINISHED = ".unfinished"
-"""Folder beside a batch's record where long runs are kept until it is whole."""
 
 
 def point_of(path: str | None, options: dict[str, str]) -> Point:
@@ -91,7 +90,7 @@ def run(point: Point, threads: int, output: str) -> str:
     """
     from subslide.records import netcdf as records
 
-    result = solved(point, threads, _progress(point) if sys.stderr.isatty() else None)
+    result = solved(point, threads, progress.of_run(point) if sys.stderr.isatty() else None)
     records.write(output, [result])
     return f"{summary(result)} -> {output}"
 
@@ -103,7 +102,7 @@ def solved(
     keep: str = "all",
     keeper: "Keeper | None" = None,
 ) -> "Run":
-    """Return the run of a point as a record keeps it: a long one thinned, so that a batch fits into memory.
+    """Return the run of a point as a record keeps it, so that a batch fits into memory.
 
     Parameters
     ----------
@@ -126,10 +125,18 @@ def solved(
     from subslide import solver
     from subslide.records import thinning
 
-    return thinning.thinned(solver.solve(point, threads=threads, progress=progress, keeper=keeper))
+    run = solver.solve(point, threads=threads, progress=progress, keeper=keeper, profiles=keep == "all")
+    return thinning.kept(run, keep)
 
 
-def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callable[[str], object]) -> None:
+def batch(
+    spec: str,
+    threads: int,
+    output: str,
+    ledger: str | None,
+    say: Callable[[str], object],
+    counted: str | None = None,
+) -> None:
     """Solve the points of a batch file into one record, with its checksum beside it.
 
     Parameters
@@ -145,6 +152,8 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
         that are solved when the job is stopped, or fails, are kept as a batch of their own.
     say
         Function that is called with a line as each run ends, and with one on the record.
+    counted
+        Path of the file that counts the runs that have ended, for whoever waits.
 
     Raises
     ------
@@ -160,17 +169,25 @@ def batch(spec: str, threads: int, output: str, ledger: str | None, say: Callabl
     if ledger is not None:
         outputs.check(ledger, [*inputs, output, checksums.beside(output)], "--ledger", ".json")
     results: list[Run] = []
+    begun = estimated = 0.0
+    counter = progress.Counter(counted)
     with at_work(Path(os.path.realpath(output)).parent):
-        keeper = Keeper(Path(output).parent / UNFINISHED, Path(output).stem, points)
+        keeper = Keeper(Path(output).parent / staging.UNFINISHED, Path(output).stem, points, keep)
         try:
             for point in points:
                 before = keeper.take(point)
                 results.append(before or solved(point, threads, keep=keep, keeper=keeper))
                 say(summary(results[-1]))
+                counter.add(results[-1].status not in FINISHED)
                 if not before:
                     keeper.add(results[-1])
+                    estimated += cost.seconds(point, keep) if begun else 0.0
+                    begun = begun or time.process_time()  # the first run waits for kernels
             keep_batch(results, output, ledger, keep)
+            counter.write()
             keeper.forget()
+            if threads == 1:
+                pace.learn(pace.kind(points[0], keep), time.process_time() - begun, estimated)
         except BaseException as error:
             if not (ledger and results):
                 raise
@@ -281,22 +298,3 @@ def _value_of_text(text: Any, name: str) -> Any:
         except ValueError as error:
             raise ConfigError(f"{name}: {words.cut(part)} {error}") from None
     return values if "," in text else values[0]
-
-
-def _progress(point: Point) -> Callable[[float], None]:
-    """Return a function that shows on the terminal the time that a run has reached, once it has taken a while."""
-    import time
-
-    start = last = time.monotonic()
-    aim = "until rest" if point.t_end is None else f"of {point.t_end:.4g} s"
-
-    def show(reached: float) -> None:
-        nonlocal last
-        now = time.monotonic()
-        if now - start > 2 and now - last > 0.5:
-            last = now
-            print(
-                f"\r{reached:.4g} s {aim}, after {now - start:.0f} s  ", end="\r", file=sys.stderr, flush=True
-            )
-
-    return show

@@ -1,16 +1,16 @@
 """Points: one run each, complete in itself, with an id that depends on its values alone."""
 
+import functools
 import hashlib
-import json
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, make_dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from subslide import catalogue
-from subslide.keys import names, schema
+from subslide.keys import values
 from subslide.keys.entries import ENTRIES
+from subslide.keys.values import RUN_KEYS
 
 PAPER_RADIUS = ENTRIES["radius"]["default"]
 """Radius (m) of the paper's column."""
@@ -27,18 +27,8 @@ REST_CAP = 60.0
 PAPER_BOX = 0.3 / PAPER_RADIUS
 """Half-width over R of the paper's box, where the water surface is watched in a box of any size."""
 
-RUN_KEYS = schema.run_keys()
-"""Keys that a run has a value of, in the order of tables and axes."""
 
-FLOATS = tuple(key for key in RUN_KEYS if schema.is_real(ENTRIES[key]))
-INTEGERS = tuple(key for key in RUN_KEYS if schema.is_integer(ENTRIES[key]))
-
-REAL = frozenset(FLOATS)
-
-STANDS_FOR = {key: ENTRIES[key]["default"] for key in RUN_KEYS if "anyOf" in ENTRIES[key]}
-"""Word, such as 'rest', that None stands for in a point, of each key that takes one beside numbers."""
-
-
+@functools.lru_cache(1024)
 def paper_times(radius: float) -> tuple[float, ...]:
     """Return the paper's times (s) for a column of another radius (m), in proportion to its root."""
     return tuple(time * math.sqrt(radius / PAPER_RADIUS) for time in PAPER_TIMES)
@@ -64,16 +54,6 @@ def edge_time(a_H: float, a_2: float, radius: float, g: float) -> float:
     return (PAPER_BOX - 1) * radius / math.sqrt(g * a_2 * radius * (1 + a_H))
 
 
-def default_of(key: str) -> Any:
-    """Return the value that a point has of a key by default."""
-    default = ENTRIES[key]["default"]
-    if key in STANDS_FOR:
-        return None
-    if isinstance(default, dict):
-        return tuple(default.items())
-    return float(default) if key in FLOATS else default
-
-
 if TYPE_CHECKING:
 
     class Defaults(type):
@@ -93,7 +73,9 @@ if TYPE_CHECKING:
             """Return the value of a key."""
 
 else:
-    Values = make_dataclass("Values", [(key, Any, default_of(key)) for key in RUN_KEYS], frozen=True)
+    Values = make_dataclass(
+        "Values", [(key, Any, values.default_of(key)) for key in RUN_KEYS], frozen=True, init=False
+    )
 
 
 class Point(Values):
@@ -105,7 +87,37 @@ class Point(Values):
     None means until rest, ``snapshot_times`` of None the paper's times, scaled by sqrt(R).
     """
 
-    @cached_property
+    def __init__(self, **chosen: Any) -> None:
+        """Take values by key, and defaults for the others; TypeError if a run has no such key."""
+        for key in chosen:
+            if key not in RUN_KEYS:
+                raise TypeError(f"{key}: a run has no such key")
+        vars(self).update(chosen)
+
+    @classmethod
+    def of(cls, mapping: dict[str, Any]) -> "Point":
+        """Return the point that keeps a mapping as it is, which nothing else may change.
+
+        Parameters
+        ----------
+        mapping
+            Values by key, as a point holds them; those that are left out are the defaults, which all points share.
+
+        Returns
+        -------
+        Point
+            The point.
+        """
+        point = cls.__new__(cls)
+        object.__setattr__(point, "__dict__", mapping)
+        return point
+
+    @property
+    def chosen(self) -> Mapping[str, Any]:
+        """Values by key, defaults left out or not, and what is remembered of the point by other names."""
+        return vars(self)
+
+    @functools.cached_property
     def id(self) -> str:
         """Name of the point: 'p' and 12 hex digits, the same for equal values however they were written."""
         return "p" + hashlib.sha256(canonical(self).encode()).hexdigest()[:12]
@@ -231,18 +243,9 @@ class Point(Values):
 def canonical(point: Point) -> str:
     """Return the text of a point in one number format and one order of keys; equal points give equal texts.
 
-    A file that its scene reads is known by its content, which is one of the options, and not by its path; a value that
-    has meant something else before, by another word. Keys that came later are left out where they change nothing.
+    A file that its scene reads is known by its content, which is one of the options, and not by its path.
     """
-    values = to_dict(point)
-    for key, words in names.KNOWN_AS.items():
-        values[key] = words.get(values[key], values[key])
-    for key, before in names.LATER.items():
-        if values[key] == before:
-            del values[key]
-    for name in catalogue.options_that_read(point.scene):
-        values["scene_options"].pop(name, None)
-    return json.dumps(values, separators=(",", ":"), sort_keys=True)
+    return values.text(point.chosen, catalogue.options_that_read(point.scene))
 
 
 def to_dict(point: Point, keys: Sequence[str] = RUN_KEYS) -> dict[str, Any]:
@@ -260,50 +263,14 @@ def to_dict(point: Point, keys: Sequence[str] = RUN_KEYS) -> dict[str, Any]:
     dict
         Value by key.
     """
-    values = {key: getattr(point, key) for key in keys}
-    for key, value in values.items():
-        if value is None:
-            values[key] = STANDS_FOR[key]
-        elif key in REAL:
-            values[key] = float(value) + 0.0  # -0.0 becomes 0.0
-        elif key == "scene_options":
-            values[key] = dict(value)
-        elif key == "snapshot_times":
-            values[key] = [float(t) + 0.0 for t in value]
-    return values
+    return {key: values.stated(key, getattr(point, key)) for key in keys}
 
 
 def options_text(point: Point) -> str:
     """Return the scene options of a point as compact JSON, in one order."""
-    return json.dumps(dict(point.scene_options), separators=(",", ":"), sort_keys=True)
+    return values.compact(dict(point.scene_options))
 
 
-def from_dict(values: dict[str, Any]) -> Point:
+def from_dict(stated: dict[str, Any]) -> Point:
     """Return the point of checked values by key; the inverse of `to_dict`, with defaults for what is left out."""
-    return Point(**{key: held(key, value) for key, value in values.items()})
-
-
-def held(key: str, value: Any) -> Any:
-    """Return the checked value of a key, as a configuration states it, as a point holds it.
-
-    Parameters
-    ----------
-    key
-        Key of a run.
-    value
-        What a configuration states for it; None stands for its word beside numbers.
-
-    Returns
-    -------
-    object
-        The value: numbers in one format, options and times sorted.
-    """
-    if value is None or value == STANDS_FOR.get(key):
-        return None
-    if key == "scene_options":
-        return tuple(sorted(value.items()))
-    if key == "snapshot_times":
-        return tuple(sorted({float(t) for t in value}))
-    if key in FLOATS:
-        return float(value)
-    return int(value) if key in INTEGERS else value
+    return Point(**{key: values.held(key, value) for key, value in stated.items()})

@@ -2,6 +2,7 @@
 
 import importlib
 import math
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,10 +11,11 @@ import pytest
 
 from subslide import catalogue
 from subslide.keys.schema import ConfigError
+from subslide.pages import sensitivity
 from subslide.results import StudyRun
 from subslide.results.listing import Companion
 from subslide.study.config import make_study
-from subslide.tables import effects, indices, indices_in_time, laws
+from subslide.tables import _emulated, effects, indices, indices_in_time, laws
 
 NAMES = [name for name in catalogue.names("figures") if name.startswith("sensitivity_")]
 BOX = {"a_H": [0.5, 10], "a_2": [0.3, 1.5], "r": [0, 0.8], "delta": [20, 40]}
@@ -120,6 +122,26 @@ def test_a_2_and_delta_act_through_one_number(whole):
     )
 
 
+class Emulator:
+    """An emulator that gives the made-up answers exactly."""
+
+    quantities = ("L_f_1pc",)
+
+    def predict(self, a_H, r, m=None, a_2=None, delta=None, quantities=()):
+        m = np.tan(np.radians(delta)) / a_2 if m is None else m
+        return {"L_f_1pc": SimpleNamespace(value=1 + 0.9 / m)}
+
+
+def test_the_emulator_gives_the_same_indices(whole, monkeypatch):
+    monkeypatch.setattr(_emulated, "Emulator", SimpleNamespace(load=Emulator))
+    monkeypatch.setattr(_emulated, "SHIPPED", Path(__file__))
+    rows = pd.DataFrame(indices.table(whole))
+    of_length = rows[rows["output"] == "L_f_1pc"]
+    apart = (of_length["emulated"] - of_length["estimate"]).abs()
+    assert np.mean(apart <= 1.5 * of_length["sampling"] + 1e-9) > 0.9
+    assert rows[rows["output"] != "L_f_1pc"]["emulated"].isna().all()
+
+
 def test_indices_state_their_size_and_parts(whole):
     rows = whole.table("indices")
     first = rows[rows["design"] == 1]
@@ -208,6 +230,26 @@ def test_figures_draw(name, failing):
         assert "9 runs lack an answer" in words(figure)
     if name == "sensitivity_laws":
         assert "4 runs have no logarithm" in words(figure)
+
+
+def test_the_page_quotes_indices_and_laws(whole):
+    text = Path("docs/sensitivity.md").read_text(encoding="utf-8")
+    page = sensitivity.page(text, whole)
+    for start, end in sensitivity.MARKS:
+        lines = page.split(start)[1].split(end)[0].strip().splitlines()
+        assert len(lines) > 10
+        assert len({line.count("|") for line in lines}) == 1
+    assert sensitivity.page(page, whole) == page
+    row = chosen(whole.table("indices"), design=2, output="L_f_1pc", kind="first", input="m")
+    assert f"{row['estimate']:.3f} ({row['low']:.3f} to {row['high']:.3f})" in page
+    with pytest.raises(ConfigError, match="the page lacks the lines"):
+        sensitivity.page("nothing", whole)
+
+
+def test_indices_in_words(whole):
+    text = indices.text(whole)
+    assert "design 2 (a_H a_2 r m), L_f_1pc" in text
+    assert len(text.splitlines()) == 6 * 10 - 1
 
 
 def test_studies_with_a_saltelli_design_get_these_figures(whole):

@@ -8,9 +8,9 @@ import pytest
 from states import advance, axial, inner, plane
 
 from subslide.keys.names import SCHEMES
+from subslide.records import energy
 from subslide.solver import solve
 from subslide.study.config import make_point
-from subslide.tables import _energy
 
 MOST = 0.01
 """Energy that a run may gain, over what the start can release."""
@@ -39,9 +39,8 @@ def gain(run):
     """Largest rise of the energy, over what can be released, less that of the water that came in at the level."""
     point = run.point
     brought = point.r * point.g * point.level * (run.water_volume - run.water_volume[0])
-    return _energy.rise(
-        point, run.model, run.box_half_width, run.energy - brought, run.water_volume, run.sediment_volume
-    )
+    series = {"time": run.time, **run.series, "energy": run.energy - brought}
+    return energy.rise(point, run.model, run.box_half_width, series)
 
 
 @pytest.mark.parametrize("count", [24, pytest.param(1000, marks=pytest.mark.long)])

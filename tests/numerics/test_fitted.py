@@ -13,10 +13,10 @@ from test_range import drive, lane, logarithmic
 from subslide.keys import names
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
+from subslide.records import energy
 from subslide.solver import loop, solve
 from subslide.study import choice
 from subslide.study.config import make_point
-from subslide.tables import _energy
 
 MOST_GAINED = 0.01
 """Energy that a run in double precision may gain, over what the start can release; the worst of 2,000: 5.4e-4, and of
@@ -56,8 +56,7 @@ def drift(volume):
 
 def gain(run):
     """Largest rise of the energy, over what the start can release."""
-    series = run.energy, run.water_volume, run.sediment_volume
-    return _energy.rise(run.point, run.model, run.box_half_width, *series)
+    return energy.rise(run.point, run.model, run.box_half_width, {"time": run.time, **run.series})
 
 
 def ends_well(run):

@@ -17,7 +17,7 @@ from subslide.models.fitted import mesh_of
 from subslide.points import Point
 from subslide.scenes import level_off
 from subslide.solver import DRY_DEPTH, solve
-from subslide.solver.loop import advance_to
+from subslide.solver.loop import Samples, advance_to
 
 POINTS = st.builds(
     Point,
@@ -99,7 +99,7 @@ def test_what_is_swept_is_what_volumes_change_by(point, radial, when, share):
 def advanced(model, clock, time):
     """Nothing; a model goes on to a scaled time."""
     clock[k.STOP] = time
-    outcome, _ = advance_to(model, clock, [], lambda now: None)
+    outcome, _ = advance_to(model, clock, Samples(), lambda now: None)
     assert outcome == k.REACHED
 
 

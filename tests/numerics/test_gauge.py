@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from subslide.points import Point
+from subslide.records import gauge
 from subslide.solver import solve
-from subslide.tables import _gauge as gauge
 
 
 @pytest.mark.parametrize("model", ["radial", "quarter"])

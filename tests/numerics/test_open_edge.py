@@ -13,7 +13,7 @@ from subslide.kernels import clock as k
 from subslide.models import axial as axial_model
 from subslide.points import PAPER_BOX, Point
 from subslide.solver import attempt, solve
-from subslide.solver.loop import advance_to
+from subslide.solver.loop import Samples, advance_to
 
 RADIUS = {
     "lean": {"a_H": 1.0, "cells": 100},
@@ -59,7 +59,7 @@ def test_a_line_is_lengthened_at_both_ends_to_the_same_bits(order):
         edges = np.arange(-half, half + 1) * dx
         h2 = np.where(np.abs(edges[:-1] + 0.25) < 0.6, 0.8, 0.0)
         model = axial(edges, 2.0 - h2, 0.0, h2, 0.0, level=2.0, walls=(0, 0), order=order)
-        outcome, _ = advance_to(model, k.started(3.0), [], lambda now: None)
+        outcome, _ = advance_to(model, k.started(3.0), Samples(), lambda now: None)
         return model, outcome
 
     (short, outcome), (long, _) = sea(n), sea(16 * n)

@@ -2,7 +2,6 @@
 
 import signal
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,11 +12,12 @@ from subslide.files import write_text
 from subslide.jobs import keep_batch
 from subslide.points import Point
 from subslide.results import Results
+from subslide.solver.run import Run
 from subslide.study import plan
 from subslide.tables import _write
 
 
-def made_up_run(point: Point, steps: int = 20, grown: int = 0, **changes) -> SimpleNamespace:
+def made_up_run(point: Point, steps: int = 20, grown: int = 0, **changes) -> Run:
     """Result as `solver.solve` returns it, of simple formulas: the front goes from R to 2 R in a second."""
     cells = round(4.2553 * point.radius / point.dx) + grown
     plane = point.model == "plane"
@@ -26,11 +26,17 @@ def made_up_run(point: Point, steps: int = 20, grown: int = 0, **changes) -> Sim
     time = np.linspace(0, 1, steps + 1)
     front = np.outer([1.2, 1.1, 1.0], point.radius * (1 + time))
     snapshots = np.array([0, 0.5, 1.0])
-    run = SimpleNamespace(
-        **{name: np.zeros(steps + 1) for name in naming.SERIES},
-        **dict.fromkeys(naming.SCALARS, 0.0),
-    )
-    vars(run).update(
+    series = {name: np.zeros(steps + 1) for name in naming.SERIES} | {
+        "x_front": front,
+        "max_abs_eta": height * np.sin(np.pi * time),
+        "max_abs_eta_outside": height * np.sin(np.pi * time) / 2,
+        "eta_gauge": -height * np.sin(np.pi * time) / 3,
+        "sediment_volume": np.full(steps + 1, 2.0),
+        "water_volume": np.full(steps + 1, 3.0),
+        "energy": 3 - time,
+        "hyperbolic_margin": np.ones(steps + 1),
+    }
+    values = dict.fromkeys(naming.SCALARS, 0.0) | dict(
         point=point,
         model="radial" if point.model == "auto" else point.model,
         model_reason="made up",
@@ -40,14 +46,6 @@ def made_up_run(point: Point, steps: int = 20, grown: int = 0, **changes) -> Sim
         x=x,
         width=None,
         time=time,
-        x_front=front,
-        max_abs_eta=height * np.sin(np.pi * time),
-        max_abs_eta_outside=height * np.sin(np.pi * time) / 2,
-        eta_gauge=-height * np.sin(np.pi * time) / 3,
-        sediment_volume=np.full(steps + 1, 2.0),
-        water_volume=np.full(steps + 1, 3.0),
-        energy=3 - time,
-        hyperbolic_margin=np.ones(steps + 1),
         snapshot_time=snapshots,
         h2=np.tile(height * np.exp(-(x**2)), (3, 1)),
         eta=np.zeros((3, len(x))),
@@ -63,8 +61,8 @@ def made_up_run(point: Point, steps: int = 20, grown: int = 0, **changes) -> Sim
         time_at_rest=1.0,
         box_half_width=cells * point.dx,
     )
-    vars(run).update(changes)
-    return run
+    series |= {name: changes.pop(name) for name in naming.SERIES if name in changes}
+    return Run(series=series, **values | changes)
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import pytest
 
 from subslide.keys.schema import ConfigError
 from subslide.points import Point, to_dict
-from subslide.study import batches, choice, config, cost
+from subslide.study import batches, choice, config, cost, pace
 
 
 def study(**axes):
@@ -18,7 +18,8 @@ def test_the_papers_study_is_balanced(root):
     solved = config.read_study(root / "config/paper.yaml").solved
     parts = batches.split(list(solved))
     costs = [sum(map(cost.seconds, batch)) for batch in parts]
-    assert max(costs) < 1.1 * max(batches.SECONDS[0], sum(costs) / batches.PARTS)
+    assert costs == sorted(costs, reverse=True)
+    assert max(costs) < 1.1 * max(batches.LEAST, sum(costs) / 2)
     for cells in (3200, 200):  # what costs most is spread
         shares = [c for c, b in zip(costs, parts, strict=True) if b[0].cells == cells]
         assert len(shares) > 1
@@ -43,9 +44,57 @@ def test_batches_share_a_cell_size_and_kind_and_are_balanced():
     assert max(heavy) <= 2 * min(heavy)
 
 
+@pytest.mark.parametrize(("seconds", "cores"), [(30, 2), (2, 2), (1, 4), (1000, 3)])
+def test_cores_end_together(seconds, cores):
+    """Jobs in order, each on the core that is free first: all cores end within a share of the last round."""
+    points = [Point(model="radial", cells=200, r=n / 4000, t_end=0.1 + (n % 7) / 10) for n in range(1500)]
+    sharing = batches.Sharing("summary", seconds, cores)
+    costs = [sum(map(sharing.cost, batch)) for batch in batches.split(points, sharing)]
+    busy = [0.0] * cores
+    for each in costs:
+        busy[busy.index(min(busy))] += each
+    assert max(costs) < 1.3 * max(seconds, batches.LEAST)
+    assert max(busy) - min(busy) <= 0.1 * max(busy) + min(costs)
+    assert len(costs) <= cores + sum(costs) / min(seconds, batches.LEAST) * 1.5
+
+
+def test_a_costly_point_has_a_batch_to_itself():
+    costly = Point(model="quarter", cells=1000)
+    points = [*(Point(model="quarter", cells=40, r=n / 1000) for n in range(200)), costly]
+    first, second = batches.split(points, batches.Sharing("summary"))
+    assert first == [costly]
+    assert len(second) == 200
+
+
+def test_a_slow_machine_has_smaller_batches():
+    points = [Point(model="radial", cells=400, r=n / 1000) for n in range(700)]
+    kind = pace.kind(points[0], "summary")
+    sizes = [
+        max(map(len, batches.split(points, batches.Sharing("summary", 1, 1, {kind: ratio}))))
+        for ratio in (2, 8)
+    ]
+    assert sizes[1] < sizes[0] / 3
+
+
+def test_the_pace_is_learnt_and_a_damaged_file_counts_as_none(tmp_path, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    assert pace.known() == {}
+    pace.learn("a", 4.0, 2.0)
+    pace.learn("b", 1.0, 0.1)  # too short to tell
+    assert pace.known() == {"a": 2.0}
+    pace.learn("a", 2.0, 2.0)
+    assert 1 < pace.known()["a"] < 2
+    file = tmp_path / "pace.json"
+    for damage in (b"", b"{", b"[1]", b"\xff", b'{"a": null, "b": 1e99, "c": "x", "d": NaN}', b"[" * 100_000):
+        file.write_bytes(damage)
+        assert pace.known() == {}
+    pace.learn("a", 2.0, 2.0)
+    assert json.loads(file.read_text()) == {"a": 1.0}
+
+
 def test_no_batch_is_larger_than_its_limit():
     parts = batches.split([Point(model="radial", cells=20, r=n / 2000) for n in range(1000)])
-    assert max(map(len, parts)) <= batches.MOST_POINTS
+    assert max(map(len, parts)) <= batches.MOST_POINTS["all"]
 
 
 def test_batch_files_hold_whole_points(tmp_path):

@@ -10,19 +10,17 @@ from subslide import exact
 from subslide.__main__ import main
 from subslide.keys import words
 from subslide.points import Point
+from subslide.records import energy
+from subslide.records.energy import GAINED
 from subslide.solver import solve
 from subslide.study import cautions, config
-from subslide.tables import _energy as energy
-from subslide.tables._energy import GAINED
 
 REGIONS = {region.name: region for region in cautions.REGIONS}
 
 
 def gain(run):
     """Largest rise of a run's energy over what its start can release."""
-    return energy.rise(
-        run.point, run.model, run.box_half_width, run.energy, run.water_volume, run.sediment_volume
-    )
+    return energy.rise(run.point, run.model, run.box_half_width, {"time": run.time, **run.series})
 
 
 def jump(run):

@@ -10,7 +10,7 @@ from subslide import solver
 from subslide.__main__ import main
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
-from subslide.study import config, cost
+from subslide.study import config, cost, limits
 
 
 def test_boxes_are_the_solvers():
@@ -79,22 +79,22 @@ def test_seconds_go_with_cells_steps_order_and_kernels():
             "longer": {"t_end": 5.4},
         }.items()
     }
-    assert 3.5 < (of["finer"] - cost.START) / (of["radial"] - cost.START) < 4.5
+    assert 3.5 < (of["finer"] - cost.START["all"]) / (of["radial"] - cost.START["all"]) < 4.5
     assert of["first"] < of["radial"] < of["roe"] < of["longer"] < of["quarter"]
     assert of["plane"] == pytest.approx(4 * of["quarter"], rel=0.01)
 
 
 def test_an_estimate_is_told_in_words_and_takes_no_time():
     grains = Point(model="plane", cells=400)
-    assert cost.estimate([grains]).words() == (
+    assert limits.estimate([grains]).words() == (
         f"about {cost.seconds(grains):.3g} core-seconds, {cost.memory(grains) / 1e6:.3g} MB a job,"
         " 1 MB of records and tables"
     )
-    hours = cost.Estimate(3, 13_912.7, 2.345e9, 4e9).words()
+    hours = limits.Estimate(3, 13_912.7, 2.345e9, 4e9).words()
     assert hours == "about 13,900 core-hours, 2,340 MB a job, 4,000 MB of records and tables"
     points = config.make_study({"study": "t", "a_H": [n / 100 for n in range(1000)]}).points
     start = time.process_time()
-    cost.estimate(points)
+    limits.estimate(points)
     assert time.process_time() - start < 0.1
 
 

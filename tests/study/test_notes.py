@@ -9,7 +9,8 @@ from subslide import naming
 from subslide.kernels import viscosity
 from subslide.keys import words
 from subslide.keys.entries import ENTRIES
-from subslide.points import Point, default_of
+from subslide.keys.values import default_of
+from subslide.points import Point
 from subslide.solver import solve
 from subslide.study import config, notes
 

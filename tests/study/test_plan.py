@@ -11,7 +11,7 @@ import subslide
 from subslide import catalogue, checksums, scenes
 from subslide.points import Point
 from subslide.results import Results
-from subslide.study import config, plan, staging
+from subslide.study import batches, config, plan, staging
 
 
 def study(**axes):
@@ -78,6 +78,24 @@ def test_a_poorer_batch_is_solved_again_only_if_the_configuration_says_so_outrig
     assert json.loads(planned.batches["0001"].text)["keep"] == "all"
     monkeypatch.setattr(config, "MOST_KEPT_WHOLE", 2)
     assert [study(a_H=axis).keep for axis in ([1, 2], [1, 2, 3])] == ["all", "summary"]
+
+
+def test_tables_do_not_depend_on_the_batches(make_run, solve_study, write_tables, tmp_path):
+    tables = []
+    for seconds, cores in ((1000, 1), (1, 5)):
+        asked = study(a_H=[n / 10 for n in range(1, 31)], batch_seconds=seconds)
+        folder = tmp_path / str(cores)
+        pace = {"radial:float64 all": 10.0} if cores == 5 else {}
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(plan.pace, "known", lambda known=pace: known)
+            patch.setattr(batches, "LEAST", 0.1)
+            planned = plan.plan(asked, folder, cores)
+            patch.setattr(plan, "plan", lambda *_, planned=planned: planned)
+            solve_study(asked, folder, lambda points: [make_run(point) for point in points])
+        assert len(planned.batches) == cores
+        write_tables(folder, "runs", "series")
+        tables.append([(folder / f"tables/{name}.csv").read_bytes() for name in ("runs", "series")])
+    assert tables[0] == tables[1]
 
 
 def test_points_file_states_what_was_asked(solved):

@@ -187,12 +187,12 @@ def test_what_was_written_wrong_never_gets_the_name(tmp_path, make_run, monkeypa
     """A disk that lost what it took (a full one did) is noticed when the file is read back."""
     store = records._store
 
-    def lossy(path, found, attrs):
+    def lossy(path, found, attrs, small):
         changed = {
             **found,
             "L_f": layout.Variable(found["L_f"].dims, found["L_f"].values * 0, found["L_f"].attrs),
         }
-        store(path, changed, attrs)
+        store(path, changed, attrs, small)
 
     monkeypatch.setattr(records, "_store", lossy)
     with pytest.raises(records.RecordError, match="checksum"):

@@ -89,7 +89,7 @@ def test_selection_by_value(finished):
 def test_volume_errors_count_only_what_cannot_have_left(make_run, finished):
     late = np.full(301, 2.0)
     late[-1] = 1.0  # waves left the box
-    results = Results(finished({1.0: {"water_volume": late[-11:], "boundary": "open"}}, a_H=[1], cells=12))
+    results = Results(finished({1.0: {"water_volume": late[-11:]}}, a_H=[1], cells=12))
     assert results.runs["water_volume_error"].tolist() == [0.0]
 
 

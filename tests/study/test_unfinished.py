@@ -14,7 +14,7 @@ from subslide import jobs, solver
 from subslide.points import Point
 from subslide.solver import checkpoint, loop
 from subslide.solver.checkpoint import Keeper
-from subslide.study import batches
+from subslide.study import batches, plan, staging
 
 RUNS = {
     "radial, on a sea that grows": Point(cells=40, a_2=1.5, delta=20.0),
@@ -114,6 +114,21 @@ def test_a_state_that_is_not_whole_counts_as_none(tmp_path, saving, monkeypatch,
     assert harm == "of another point" or same(
         solver.solve(point, keeper=Keeper(tmp_path, "1", [point])), whole
     )
+
+
+def test_what_no_batch_is_to_solve_is_forgotten(tmp_path, saving):
+    """But not a run that another batch solves now, as after its batch was stopped and kept what it had."""
+    points = [Point(cells=20), Point(cells=20, a_H=2.0), Point(cells=20, a_H=3.0)]
+    folder = tmp_path / "records" / staging.UNFINISHED
+    folder.parent.mkdir()
+    keeper = Keeper(folder, "0001", points)
+    keeper.add(jobs.solved(points[0], 1, keeper=keeper))
+    for point in points[1:]:
+        jobs.solved(point, 1, keeper=keeper)
+    states = {f"{point.id}.npz" for point in points[1:]}
+    assert {path.name for path in folder.iterdir()} == states | {"batch-0001-0000.npz"}
+    staging.forget(tmp_path, [plan.Batch("0002", tuple(points[1:2]), "")])
+    assert {path.name for path in folder.iterdir()} == {f"{points[1].id}.npz"}
 
 
 def test_a_disk_that_refuses_ends_no_run(tmp_path, saving, capsys):

@@ -22,13 +22,14 @@ MOST_BYTES = 1_000_000_000
 @click.option(
     "--ledger", metavar="FILE.json", help="the study's file of this batch, written once its record is whole"
 )
+@click.option("--counts", metavar="FILE", help="file that counts the runs that have ended, for whoever waits")
 @click.option("-o", "--output", required=True, metavar="FILE.nc", help="record to write (NetCDF-4)")
-def batch(spec: str, threads: int, ledger: str | None, output: str) -> None:
+def batch(spec: str, threads: int, ledger: str | None, counts: str | None, output: str) -> None:
     """Solve the points of a batch file, SPEC, into one record with its SHA-256 beside it."""
     from subslide import jobs
 
     jobs.set_threads(threads)
-    jobs.batch(spec, threads, output, ledger, click.echo)
+    jobs.batch(spec, threads, output, ledger, click.echo, counts)
 
 
 @cli.command(hidden=True)

@@ -93,7 +93,7 @@ def caution(points: Iterable[Point]) -> None:
 @click.argument("config", nargs=-1, required=True)
 def check(config: tuple[str, ...]) -> None:
     """Check study files, CONFIG..., and print one line for each, with cautions where runs lie in unsafe regions."""
-    from subslide.study import cost
+    from subslide.study import limits
     from subslide.study.config import read_study
 
     for path in config:
@@ -102,7 +102,7 @@ def check(config: tuple[str, ...]) -> None:
         more = f" and {companions} companions for bands" if companions else ""
         click.echo(
             f"{path}: study '{study.name}', {len(study.runs)} runs{more}, {len(study.figures)} figures,"
-            f" {cost.estimate(study.solved).words()}"
+            f" {limits.estimate(study.solved, study.keep).words()}"
         )
         caution(study.points)
 

@@ -13,8 +13,8 @@ from matplotlib.patches import Patch
 from subslide import naming
 from subslide.figures import _style, _words
 from subslide.points import Point
+from subslide.records.energy import GAINED
 from subslide.tables import _by_method
-from subslide.tables._energy import GAINED
 
 if TYPE_CHECKING:
     from subslide.results import Results

@@ -126,6 +126,7 @@ ENTRIES: dict[str, Entry] = {
     },
     "keep": {"role": STUDY, **kept.ENTRY},
     "design": {"role": DESIGN, **designs.ENTRY},
+    "batch_seconds": {"role": STUDY, **kept.BATCH_SECONDS},
     "max_core_hours": limit("hours on one core, as estimated, that a study may take", 100, "h", 1e-3, 1e7),
     "max_memory": limit("memory, as estimated, that the largest run may take", 8, "GB", 0.1, 1e5),
     "max_disk": limit("disk, as estimated, that records and tables may take", 20, "GB", 1e-3, 1e6),

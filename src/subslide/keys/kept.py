@@ -1,4 +1,4 @@
-"""What records may keep of each run of a study, and the entry of the key that says so."""
+"""What records may keep of each run of a study; entries of the keys that say so, and how long a job works."""
 
 WORDS = ("summary", "series", "all")
 """What may be kept, the least first."""
@@ -27,3 +27,15 @@ def is_less(one: str, other: str) -> bool:
         Whether it does.
     """
     return bool(other) and WORDS.index(one) < WORDS.index(other)
+
+
+BATCH_SECONDS = {
+    "description": "seconds that a job shall work, as estimated; small studies have less, so that all cores work. No"
+    " answer depends on it",
+    "type": "number",
+    "minimum": 1,
+    "maximum": 100_000,
+    "default": 30,
+    "unit": "s",
+}
+"""Entry of the key `batch_seconds`, but for its role."""

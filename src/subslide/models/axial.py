@@ -6,19 +6,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from subslide.kernels.advance_axial import advance_axial
-from subslide.kernels.arrays import (
-    GHOSTS,
-    Cells,
-    CellTerms,
-    Fluxes,
-    Mesh,
-    Settings,
-    Side,
-    Track,
-    Watch,
-    allocate,
-)
+from subslide.kernels.arrays import GHOSTS, Settings, Track, Watch
 from subslide.kernels.boundary import OPEN, PAPER, WALL
+from subslide.models import space
+from subslide.models.axial_layout import LARGEST_LAYOUT, layout_of
 from subslide.models.limits import LARGEST_BOX, LOST_GRAINS, MOST_CELLS
 from subslide.models.model import Model
 from subslide.scenes import Grid
@@ -53,7 +44,7 @@ class Axial(Model):
         self,
         name: str,
         settings: Settings,
-        state: Sequence[np.ndarray],
+        state: Sequence[np.ndarray | float],
         grid: Grid,
         *,
         walls: tuple[int, int],
@@ -70,38 +61,43 @@ class Axial(Model):
         self.watched = watched
         self.between = watched == round(watched) and PAPER not in walls  # the paper's box is told as it was
         first = round(grid.edges[0] / grid.dx)
-        last = first + len(grid.centres)
+        last = first + len(grid.edges) - 1
         reach = math.ceil(watched) if OPEN in self.walls else last - first
         self.box = max(first, -reach), min(last, reach)
         self.half_width = grid.edges[self.box[1] - first]
+        self.space: space.Space | None = None
         self._lay(state, grid)
         grains = float(np.sum(self.mesh.weight * self.cells.h2, dtype=np.float64))
-        self.watch = self._watch((1 - LOST_GRAINS) * grains, state[0][-1], state[2][-1])
+        self.watch = self._watch(
+            (1 - LOST_GRAINS) * grains, *(h[-GHOSTS - 1] for h in (self.cells.h1, self.cells.h2))
+        )
 
-    def _lay(self, state: Sequence[np.ndarray], grid: Grid) -> None:
-        """Put a state on a grid into new arrays."""
+    def _lay(self, state: Sequence[np.ndarray | float], grid: Grid) -> None:
+        """Put a state on a grid into arrays."""
         real = type(self.settings.r)
-        padded = len(grid.centres) + 2 * GHOSTS
-        self.grid = grid
-        self._x = grid.centres
-        self.cells = allocate(Cells, (padded,), real)
+        first = round(grid.edges[0] / grid.dx)
+        cells = len(grid.edges) - 1
+        self.layout = (layout_of if cells <= LARGEST_LAYOUT else layout_of.__wrapped__)(
+            grid.geometry,
+            grid.dx,
+            (first, cells),
+            self.box,
+            self.walls[1] == WALL,
+            self.watched,
+            np.dtype(real),
+        )
+        self.grid, self.mesh = grid, self.layout.mesh
+        before = self.space
+        self.space = space.taken(cells + 2 * GHOSTS, self.settings.order, real)
+        self.cells, self.left, self.right, self.fluxes, self.terms, *_ = self.space
         for variable, values in zip(self.variables, state, strict=True):
             getattr(self.cells, variable)[GHOSTS:-GHOSTS] = values
-        if self.settings.order == 1:
-            self.left = self.right = Side(*(getattr(self.cells, variable) for variable in Side._fields))
-        else:
-            self.left = allocate(Side, (padded,), real)
-            self.right = allocate(Side, (padded,), real)
-        self.fluxes = allocate(Fluxes, (padded - 2 * GHOSTS + 1,), real)
-        self.terms = allocate(CellTerms, (padded,), real)
-        self.terms.keep1[:] = self.terms.keep2[:] = 1
-        self.mesh = mesh_of(grid, self.box, self.walls[1] == WALL, real)
+        if before is not None:
+            space.returned(before)
 
     def _watch(self, least_grains: float, still1: float, still2: float) -> Watch:
         """Return the `Watch` of the loop; still water is the state of the last cell at the start."""
-        near = np.flatnonzero(np.abs(self.x) < math.ceil(self.watched) * self.grid.dx)
-        columns = (near[0], near[-1] + 1, np.searchsorted(self.x, 0.0), np.searchsorted(self.x, 1.0))
-        start, stop, beside, beyond = (int(column) + GHOSTS for column in columns)
+        start, stop, beside, beyond = self.layout.columns
         return Watch(
             level=self.level,
             least_grains=least_grains,
@@ -135,7 +131,7 @@ class Axial(Model):
     @property
     def x(self) -> np.ndarray:
         """Centres (n) of the cells over R."""
-        return self._x
+        return self.layout.x
 
     def state(self) -> dict[str, np.ndarray]:
         """Return the cells, their edges, what the ends of the grid are, and from when a sea has an end."""
@@ -178,10 +174,14 @@ class Axial(Model):
         if any(added):
             first = round(self.grid.edges[0] / self.grid.dx)
             edges = np.arange(first - added[0], first + len(self.x) + added[1] + 1) * self.grid.dx
-            self._lay(
-                [np.pad(values, added, mode="edge") for values in state], self.grid._replace(edges=edges)
-            )
+            self._lay([_longer(values, *added) for values in state], self.grid._replace(edges=edges))
         self.watch = self._watch(self.watch.least_grains, self.watch.still1, self.watch.still2)
+
+    def release(self) -> None:
+        """Give the arrays to runs to come."""
+        if self.space is not None:
+            space.returned(self.space)
+            self.space = None
 
     def advance(self, thresholds: tuple[float, ...], track: Track) -> None:
         """Run the time loop; see `advance_axial`."""
@@ -209,44 +209,6 @@ class Axial(Model):
         }
 
 
-def mesh_of(grid: Grid, box: tuple[int, int], right_wall: bool, real: type[float]) -> Mesh:
-    """Return the `Mesh` of a line or a radius.
-
-    Parameters
-    ----------
-    grid
-        Cells over R; on a radius they are rings about the axis.
-    box
-        Cells from the axis to the (left, right) end of the box of which volumes are, the left ones counted below 0.
-    right_wall
-        Whether the right end is a wall.
-    real
-        Type of the working precision.
-
-    Returns
-    -------
-    Mesh
-        Arrays of that type, the sums float64.
-    """
-    n, dx, x = len(grid.centres), grid.dx, grid.centres
-    radial = grid.geometry == "radius"
-    padded = n + 2 * GHOSTS
-    r = x if radial else np.ones(n)
-    weight = np.zeros(padded, real)
-    weight[GHOSTS:-GHOSTS] = r * dx * (2 * np.pi if radial else 1)
-    source = np.zeros(padded, real)
-    if radial:
-        source[GHOSTS:-GHOSTS] = -0.5 / x
-        source[GHOSTS - 1] = -source[GHOSTS]  # mirrored, so that nothing passes a wall
-        source[-GHOSTS] = -source[-GHOSTS - 1] if right_wall else -0.5 / (x[-1] + dx)
-    first = GHOSTS + box[0] - round(grid.edges[0] / dx)
-    left = -np.cumsum(weight[:first][::-1], dtype=np.float64)[::-1]
-    total = np.concatenate([left, [0.0], np.cumsum(weight[first:], dtype=np.float64)])
-    return Mesh(
-        area=(grid.edges if radial else np.ones(n + 1)).astype(real),
-        inverse_volume=(1 / (r * dx)).astype(real),
-        source=source,
-        weight=weight,
-        total=total,
-        size=float(total[first + box[1] - box[0]]),
-    )
+def _longer(values: np.ndarray, before: int, after: int) -> np.ndarray:
+    """Return values (n) with so many more at both ends, like the first and the last."""
+    return np.concatenate([np.full(before, values[0]), values, np.full(after, values[-1])])

@@ -8,6 +8,7 @@ The numbers were chosen on columns drawn at random (a_H 0.5 to 10, a_2 0.3 to 1.
 depend little on any of them (docs/design/measured.md).
 """
 
+import functools
 import math
 
 import numpy as np
@@ -99,8 +100,15 @@ def coefficients(cells: int, far: float) -> tuple[np.ndarray, np.ndarray, np.nda
     Returns
     -------
     tuple of ndarray
-        base, near and ahead, each (cells + 1).
+        base, near and ahead, each (cells + 1), of which the last two are shared.
     """
+    outwards, near, ahead = _shares(cells)
+    return far * outwards, near, ahead
+
+
+@functools.lru_cache(64)
+def _shares(cells: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the share of the end of the grid, and of both ends of the fan, in the place of each edge."""
     left, fan, right = parts(cells)
     behind, beyond = np.arange(left, 0, -1.0), np.arange(1, right + 1.0)
     inner = within(np.arange(fan + 1) / fan)
@@ -108,10 +116,10 @@ def coefficients(cells: int, far: float) -> tuple[np.ndarray, np.ndarray, np.nda
     first, last = sizes()
     more_left = first * (behind - left * share_left) / fan
     more_right = last * (beyond - right * share_right) / fan
-    base = np.concatenate([0 * behind, 0 * inner, far * share_right])
+    outwards = np.concatenate([0 * behind, 0 * inner, share_right])
     near = np.concatenate([1 - share_left + more_left, 1 - inner, -more_right])
     ahead = np.concatenate([-more_left, inner, 1 - share_right + more_right])
-    return base, near, ahead
+    return outwards, near, ahead
 
 
 def far_end(point: Point, fan: Fan) -> float:

@@ -5,21 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from subslide.kernels.advance_fitted import advance_fitted
-from subslide.kernels.arrays import (
-    GHOSTS,
-    Cells,
-    CellTerms,
-    Fan,
-    Fluxes,
-    Mesh,
-    Motion,
-    Settings,
-    Side,
-    Track,
-    Watch,
-    allocate,
-)
+from subslide.kernels.arrays import GHOSTS, Fan, Mesh, Motion, Settings, Track, Watch
 from subslide.models import fan as layout
+from subslide.models import space
 from subslide.models.model import Model
 from subslide.points import PAPER_BOX, Point
 
@@ -51,7 +39,7 @@ class Fitted(Model):
         self,
         name: str,
         settings: Settings,
-        state: Sequence[np.ndarray],
+        state: Sequence[np.ndarray | float],
         mesh: Mesh,
         motion: Motion,
         fan: Fan,
@@ -64,23 +52,16 @@ class Fitted(Model):
         self.mesh, self.motion, self.fan = mesh, motion, fan
         self.level = real(level)
         self.dimensions = 2 if motion.radial else 1
-        padded = len(mesh.weight)
-        self.cells = allocate(Cells, (padded,), real)
+        self.space = space.taken(len(mesh.weight), settings.order, real)
+        self.cells, self.left, self.right, self.fluxes, self.terms, *_ = self.space
         for variable, values in zip(self.variables, state, strict=True):
             getattr(self.cells, variable)[GHOSTS:-GHOSTS] = values
-        if settings.order == 1:
-            self.left = self.right = Side(*(getattr(self.cells, variable) for variable in Side._fields))
-        else:
-            self.left, self.right = (allocate(Side, (padded,), real) for _ in range(2))
-        self.fluxes = allocate(Fluxes, (padded - 2 * GHOSTS + 1,), real)
-        self.terms = allocate(CellTerms, (padded,), real)
-        self.terms.keep1[:] = self.terms.keep2[:] = 1
         self.watch = Watch(
             level=self.level,
             least_grains=0.0,
             margin=64.0 * float(np.finfo(real).eps),
-            still1=state[0][-1],
-            still2=state[2][-1],
+            still1=self.cells.h1[-GHOSTS - 1],
+            still2=self.cells.h2[-GHOSTS - 1],
             start=GHOSTS,  # no surface is watched
             stop=GHOSTS,
             bottom=0,
@@ -112,6 +93,10 @@ class Fitted(Model):
         """Put a state back, its cells where they were."""
         super().resume(state)
         self.motion.edges[:] = state["edges"]
+
+    def release(self) -> None:
+        """Give the arrays to runs to come."""
+        space.returned(self.space)
 
     def advance(self, thresholds: tuple[float, ...], track: Track) -> None:
         """Run the time loop; see `advance_fitted`."""

@@ -66,6 +66,9 @@ class Model(ABC):
     def make_room(self, now: float) -> None:  # noqa: B027
         """Give an open sea, which has come to the end of its arrays at the scaled time `now`, longer ones."""
 
+    def release(self) -> None:  # noqa: B027
+        """Give what later runs can use to them; nothing but the model's sizes and numbers counts from then on."""
+
     @abstractmethod
     def advance(self, thresholds: tuple[float, ...], track: Track) -> None:
         """Run the time loop until the clock's stop, the end of the run, or no room for samples.

@@ -1,6 +1,7 @@
 """The page on records, docs/records.md: statuses, and every variable with its dimensions and unit."""
 
 from subslide import naming
+from subslide.records import scalars, thinning
 
 PATH = "docs/records.md"
 INTRODUCTION = """# Records
@@ -32,6 +33,13 @@ Fronts are sampled at each step, volumes, energy and hyperbolicity at every eigh
 between. `Results.record` gives a fitted run `x(snapshot, cell)` and `cell_width`, a uniform one `x(x)`
 whatever else is in its file; `subslide.results.positions(record, snapshot)` the positions of either.
 
+The attribute `keep` says what a record holds beside the numbers of each run, which follow from all of its samples in
+any case. `all`: series and profiles. `series`: no profiles. `summary`: of {summary} the samples between which
+straight lines pass those of every step within {share:g} of the range of the series (or {least:g} of its largest size),
+with each local extreme that stands out by more, in single precision. There a value is missing where another series
+alone has a sample, and infinite where the run has none; `subslide.results` gives them filled in, as those of other
+records. Texts of a summary are tables of characters (CF 2.2), and `config` states the values that all its runs share.
+
 Each key of a study is a variable too ([config/README.md](../config/README.md)); attributes hold the configuration,
 versions and a checksum that readers verify. `status` is one of:
 
@@ -40,7 +48,12 @@ versions and a checksum that readers verify. `status` is one of:
 
 def text() -> str:
     """Return the page."""
-    return INTRODUCTION + variables()
+    series = ", ".join(f"`{name}`" for name in thinning.SUMMARY)
+    words = {"{summary}": series, "{share:g}": f"{thinning.SHARE:g}", "{least:g}": f"{thinning.LEAST:g}"}
+    introduction = INTRODUCTION
+    for mark, word in words.items():
+        introduction = introduction.replace(mark, word)
+    return introduction + variables()
 
 
 def variables() -> str:
@@ -50,7 +63,7 @@ def variables() -> str:
         "Series, a sample each time step": naming.SERIES,
         "Profiles along the x axis, at each snapshot": naming.PROFILES,
         "Fields, at each snapshot (`fields: true`, in the plane)": naming.FIELDS_2D,
-        "A value a run": naming.SCALARS,
+        "A value a run": naming.SCALARS | scalars.NAMES,
         "Coordinates": naming.COORDINATES,
     }
     for title, table in parts.items():

@@ -7,8 +7,11 @@ from typing import Any
 import numpy as np
 
 from subslide.files import RecordError
-from subslide.records import netcdf
+from subslide.records import netcdf, thinning
 from subslide.records.variables import Variable
+
+PLACES = ("id", "time", "snapshot_time", "h2", "grid", "cell_width")
+"""Variables that tell where a run is in its record, and what of that is padding."""
 
 
 class OfRun(dict[str, Any]):
@@ -49,17 +52,22 @@ def read(path: Path, ids: Collection[str], names: Collection[str]) -> dict[str, 
     RecordError
         If the record is missing or damaged, or lacks a run.
     """
-    variables, _ = netcdf.read(path)
-    places = {name: n for n, name in enumerate(variables["id"].values)}
-    if lacking := sorted(set(ids) - set(places)):
-        raise RecordError(f"{path}: the record lacks the run {lacking[0]}")
+    variables, attrs = netcdf.read(path, {*names, *PLACES})
+    places = dict(zip(ids, _places(path, variables, ids), strict=True))
     wanted = {name: variables[name] for name in names if name in variables}
-    return {name: OfRun(path, _of_run(variables, wanted, places[name])) for name in ids}
+    runs: dict[str, dict[str, Any]] = {
+        name: OfRun(path, _of_run(variables, wanted, places[name])) for name in ids
+    }
+    if attrs.get("keep") == "summary":
+        for name, one in runs.items():
+            time = _of_run(variables, {"time": variables["time"]}, places[name])["time"]
+            one.update({key: thinning.filled(time, one[key]) for key in thinning.SUMMARY if key in one})
+    return runs
 
 
 def _of_run(variables: dict[str, Variable], wanted: dict[str, Variable], place: int) -> dict[str, Any]:
     """Return the wanted variables of the run at a place of a record, without padding, as copies."""
-    cells = np.isfinite(variables["h2"].values[place, 0])
+    cells = np.isfinite(variables["h2"].values[place, 0]) if "h2" in variables else slice(None)
     kept = {
         "step": slice(int(np.isfinite(variables["time"].values[place]).sum())),
         "snapshot": slice(int(np.isfinite(variables["snapshot_time"].values[place]).sum())),
@@ -81,3 +89,39 @@ def _of_run(variables: dict[str, Variable], wanted: dict[str, Variable], place: 
     if still:
         parts.pop("cell_width", None)
     return parts
+
+
+def values(path: Path, ids: Collection[str], names: Collection[str]) -> dict[str, np.ndarray]:
+    """Return numbers and texts of some runs of a record: what is of each run alone.
+
+    Parameters
+    ----------
+    path
+        The record.
+    ids
+        Ids of the runs.
+    names
+        Names of the variables, whose first dimension is `run` and that need no padding.
+
+    Returns
+    -------
+    dict
+        Arrays by name, along the runs as they are asked for.
+
+    Raises
+    ------
+    RecordError
+        If the record is missing or damaged, or lacks a run or a variable.
+    """
+    variables, _ = netcdf.read(path, {*names, "id"})
+    places = _places(path, variables, ids)
+    record = OfRun(path, variables)
+    return {name: record[name].values[places] for name in names}
+
+
+def _places(path: Path, variables: dict[str, Variable], ids: Collection[str]) -> list[int]:
+    """Return where runs are in a record; RecordError if it lacks one."""
+    known = {name: n for n, name in enumerate(variables["id"].values)}
+    if lacking := sorted(set(ids) - set(known)):
+        raise RecordError(f"{path}: the record lacks the run {lacking[0]}")
+    return [known[name] for name in ids]

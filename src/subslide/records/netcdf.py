@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,8 +19,12 @@ if TYPE_CHECKING:
     from subslide.solver.run import Run
 
 CHECKSUM = "checksum"
-COMPRESSED_FROM = 1 << 16
-"""Bytes from which a variable is compressed: below it, the gain is less than what chunks cost."""
+ENCODING = "_Encoding"
+"""Attribute of a table of characters, by which readers know that its rows are texts."""
+
+COMPRESSED_FROM = {False: 1 << 16, True: 1 << 12}
+"""Bytes from which a variable is compressed: below it, the gain is less than what chunks cost. Of summaries, whose
+numbers are rounded and whose texts are mostly alike, much less is left."""
 
 
 def write(path: Path | str, runs: list["Run"], keep: str = "all") -> None:
@@ -30,7 +35,7 @@ def write(path: Path | str, runs: list["Run"], keep: str = "all") -> None:
     path
         File, which is written whole or not at all.
     runs
-        Results of `solver.solve`, thinned (`records.thinning`).
+        Results of `solver.solve`, as `records.thinning.kept` gives them.
     keep
         What is kept of each, one of `subslide.keys.kept.WORDS`, which the record states.
 
@@ -40,17 +45,30 @@ def write(path: Path | str, runs: list["Run"], keep: str = "all") -> None:
         If what was read back is not what was written.
     """
     variables = layout.variables(runs)
-    attrs = {**provenance.attributes(runs, variables), "keep": keep}
+    attrs = provenance.attributes(runs, variables, keep)
     attrs[CHECKSUM] = digest(variables, attrs)
     with replacing(path) as temporary:
-        _store(temporary, variables, attrs)
-        read(temporary)
+        _store(temporary, variables, attrs, small=keep == "summary")
+        read(temporary, names=())
 
 
-def read(path: Path | str) -> tuple[dict[str, Variable], dict]:
+def read(path: Path | str, names: Collection[str] | None = None) -> tuple[dict[str, Variable], dict]:
     """Return the variables by name, and the global attributes, of a record.
 
     This is the plain reader; `subslide.results` gives xarray datasets.
+
+    Parameters
+    ----------
+    path
+        The file.
+    names
+        Names of the variables that are wanted, all without it; what the record lacks is left out. The others are
+        verified too, one after the other, and do not stay in memory.
+
+    Returns
+    -------
+    tuple of dict
+        Variables and attributes.
 
     Raises
     ------
@@ -60,20 +78,25 @@ def read(path: Path | str) -> tuple[dict[str, Variable], dict]:
     path = Path(path)
     if not path.is_file():
         raise RecordError(f"{path}: there is no such record")
+    wanted: dict[str, Variable] = {}
     try:
         # by its bytes: the library takes a backslash in a path for a slash
         with netCDF4.Dataset("record", memory=path.read_bytes()) as data:
             data.set_auto_maskandscale(False)
-            variables = {
-                name: Variable(v.dimensions, _values(v), {key: v.getncattr(key) for key in v.ncattrs()})
-                for name, v in data.variables.items()
-            }
+            data.set_auto_chartostring(False)
             attrs = {key: data.getncattr(key) for key in data.ncattrs()}
-    except (OSError, RuntimeError, AttributeError, IndexError, ValueError) as error:
+            total = _digest_of(attrs)
+            for name in sorted(data.variables):
+                variable = _read(data.variables[name])
+                _add(total, name, variable)
+                if names is None or name in names:
+                    wanted[name] = variable
+            variables = {name: wanted[name] for name in data.variables if name in wanted}
+    except (OSError, RuntimeError, AttributeError, IndexError, ValueError, TypeError) as error:
         raise RecordError(f"{path}: the file is damaged or not a NetCDF file ({error})") from None
     if CHECKSUM not in attrs:
         raise RecordError(f"{path}: not a record of subslide: it has no checksum")
-    if attrs[CHECKSUM] != digest(variables, attrs):
+    if attrs[CHECKSUM] != total.hexdigest():
         raise RecordError(f"{path}: the record is damaged: its content does not match its checksum")
     return variables, attrs
 
@@ -93,22 +116,36 @@ def digest(variables: dict[str, Variable], attrs: dict) -> str:
     str
         SHA-256 (hex).
     """
-    total = hashlib.sha256(_attrs_text({k: v for k, v in attrs.items() if k != CHECKSUM}))
+    total = _digest_of(attrs)
     for name in sorted(variables):
-        dims, values, about = variables[name]
-        total.update(json.dumps([name, list(dims), list(values.shape)]).encode() + _attrs_text(about))
-        if values.dtype.kind == "O":
-            total.update(json.dumps([str(value) for value in values.ravel()]).encode())
-        else:
-            total.update(values.dtype.str.encode())
-            total.update(np.ascontiguousarray(values).data)
+        _add(total, name, variables[name])
     return total.hexdigest()
 
 
-def _values(variable: netCDF4.Variable) -> np.ndarray:
-    """Return the values of a variable of a file; texts as objects."""
-    values = variable[...]
-    return np.asarray(values, dtype=object if variable.dtype is str else None)
+def _digest_of(attrs: dict) -> "hashlib._Hash":
+    """Return the hash of the attributes of a record but the checksum itself, to which variables are added."""
+    return hashlib.sha256(_attrs_text({key: value for key, value in attrs.items() if key != CHECKSUM}))
+
+
+def _add(total: "hashlib._Hash", name: str, variable: Variable) -> None:
+    """Put a variable into a hash."""
+    dims, values, about = variable
+    total.update(json.dumps([name, list(dims), list(values.shape)]).encode() + _attrs_text(about))
+    if values.dtype.kind == "O":
+        total.update(json.dumps([str(value) for value in values.ravel()]).encode())
+    else:
+        total.update(values.dtype.str.encode())
+        total.update(np.ascontiguousarray(values).data)
+
+
+def _read(variable: netCDF4.Variable) -> Variable:
+    """Return a variable of a file; texts as objects, also where they are a table of characters."""
+    dims, values = variable.dimensions, variable[...]
+    about = {key: variable.getncattr(key) for key in variable.ncattrs()}
+    if about.pop(ENCODING, None):
+        rows = np.ascontiguousarray(values).view(f"S{values.shape[-1]}")[..., 0]
+        return Variable(dims[:-1], np.strings.decode(rows, "utf-8").astype(object), about)
+    return Variable(dims, np.asarray(values, dtype=object if variable.dtype is str else None), about)
 
 
 def _attrs_text(attrs: dict) -> bytes:
@@ -117,23 +154,30 @@ def _attrs_text(attrs: dict) -> bytes:
     return json.dumps(plain, sort_keys=True).encode()
 
 
-def _store(path: Path, variables: dict[str, Variable], attrs: dict) -> None:
-    """Write variables and attributes to a NetCDF file."""
+def _store(path: Path, variables: dict[str, Variable], attrs: dict, small: bool) -> None:
+    """Write variables and attributes to a NetCDF file, small: texts as tables of characters."""
     with netCDF4.Dataset(os.fspath(path), "w", format="NETCDF4") as data:
+        data.set_auto_chartostring(False)
         for name, variable in variables.items():
-            for dim, size in zip(variable.dims, variable.values.shape, strict=True):
+            dims, values, about = variable.dims, variable.values, dict(variable.attrs)
+            if small and values.dtype.kind == "O":
+                texts = np.strings.encode(values.astype(str), "utf-8")
+                dims = (*dims, f"length_{texts.itemsize}")
+                values = texts.view("S1").reshape(*texts.shape, texts.itemsize)
+                about[ENCODING] = "utf-8"
+            for dim, size in zip(dims, values.shape, strict=True):
                 if dim not in data.dimensions:
                     data.createDimension(dim, size)
-            text = variable.values.dtype.kind == "O"
-            about = dict(variable.attrs)
+            text = values.dtype.kind == "O"
             target = data.createVariable(
                 name,
-                str if text else variable.values.dtype,
-                variable.dims,
+                str if text else values.dtype,
+                dims,
                 fill_value=about.pop("_FillValue", None),
-                compression="zlib" if not text and variable.values.nbytes >= COMPRESSED_FROM else None,
+                compression="zlib" if not text and values.nbytes >= COMPRESSED_FROM[small] else None,
                 complevel=1,
             )
             target.setncatts(about)
-            target[...] = variable.values
+            target.set_auto_chartostring(False)
+            target[...] = values
         data.setncatts(attrs)

@@ -9,9 +9,9 @@ import numpy as np
 import subslide
 from subslide import points
 from subslide.records import thinning
+from subslide.records.variables import ASKED_ALONE, Variable
 
 if TYPE_CHECKING:
-    from subslide.records.variables import Variable
     from subslide.solver.run import Run
 
 STATED = (
@@ -31,7 +31,7 @@ STATED = (
 """Variables that a record of a single run also states as attributes."""
 
 
-def attributes(runs: list["Run"], variables: dict[str, "Variable"]) -> dict[str, Any]:
+def attributes(runs: list["Run"], variables: dict[str, Variable], keep: str) -> dict[str, Any]:
     """Return the global attributes of a record: conventions, versions, configuration and, for one run, its outcome.
 
     Parameters
@@ -40,6 +40,8 @@ def attributes(runs: list["Run"], variables: dict[str, "Variable"]) -> dict[str,
         Results of `solver.solve`.
     variables
         The record's variables by name.
+    keep
+        How much of them is kept, see `records.thinning.kept`.
 
     Returns
     -------
@@ -48,23 +50,38 @@ def attributes(runs: list["Run"], variables: dict[str, "Variable"]) -> dict[str,
     """
     import numba
 
-    config = [points.to_dict(run.point) for run in runs]
+    stated = (_shared if keep == "summary" else _each)([run.point for run in runs])
     attrs = {
         "Conventions": "CF-1.11",
         "title": "Collapse of submerged granular columns",
         "source": f"subslide {subslide.__version__}, two-layer Savage-Hutter model with Coulomb friction",
         "history": f"written by subslide {subslide.__version__} (sources {subslide.source_hash()})",
-        "comment": "time is elapsed time since release; sample 0 is the start, then one sample each time step, none"
-        f" left out of runs of up to {thinning.LONGEST} samples; longer ones keep the first {thinning.HEAD} and then"
-        " the extremes of every series in each of many blocks of steps; runs with fewer samples end in NaN",
+        "comment": f"time is elapsed time since release; {thinning.ABOUT[keep]}; runs with fewer samples end in NaN",
+        "keep": keep,
         "version": subslide.__version__,
         "source_hash": subslide.source_hash(),
         "python_version": platform.python_version(),
         "numpy_version": np.__version__,
         "numba_version": numba.__version__,
         "machine": platform.machine(),
-        "config": json.dumps(config[0] if len(config) == 1 else config, allow_nan=False),
+        "config": json.dumps(stated, allow_nan=False),
     }
     if len(runs) == 1:
         attrs.update({name: variables[name].values[0] for name in STATED})
     return attrs
+
+
+def _each(asked: list[points.Point]) -> Any:
+    """Return the configuration of a run, or a list with that of each."""
+    config = [points.to_dict(point) for point in asked]
+    return config[0] if len(config) == 1 else config
+
+
+def _shared(asked: list[points.Point]) -> dict[str, Any]:
+    """Return the values that all runs share, by key, and lists of those that differ and are no variables."""
+    alike = {key: len({getattr(point, key) for point in asked}) == 1 for key in points.RUN_KEYS}
+    config = {key: value for key, value in points.to_dict(asked[0]).items() if alike[key]}
+    for key in ASKED_ALONE:
+        if not alike[key]:
+            config[key] = [points.to_dict(point)[key] for point in asked]
+    return config

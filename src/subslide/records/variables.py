@@ -7,6 +7,7 @@ import numpy as np
 
 from subslide import naming, points
 from subslide.keys.entries import ENTRIES
+from subslide.records import scalars
 
 if TYPE_CHECKING:
     from subslide.solver.run import Run
@@ -20,11 +21,10 @@ class Variable(NamedTuple):
     attrs: dict[str, Any]
 
 
-PARAMETERS = tuple(
-    key
-    for key in points.RUN_KEYS
-    if key not in ("scene_options", "model", "grid", "snapshot_times", "fields")
-)
+ASKED_ALONE = ("model", "grid", "snapshot_times", "fields")
+"""Keys of a run that are no variables: what came of them is told by others."""
+
+PARAMETERS = tuple(key for key in points.RUN_KEYS if key not in ("scene_options", *ASKED_ALONE))
 """Keys of a run that are variables as they are; what the others asked for is told by other variables."""
 
 WORDS = {
@@ -58,17 +58,18 @@ def variables(runs: list["Run"]) -> dict[str, Variable]:
     ValueError
         If a run that keeps fields over the plane does not share its grid with the others.
     """
-    inside, places = _shared_grid(runs) or _grids_apart(runs)
+    inside, places = _no_grid(runs) or _shared_grid(runs) or _grids_apart(runs)
     record = {
         "front_threshold": _variable("front_threshold", np.array(naming.FRONT_THRESHOLDS)),
         **places,
     }
-    record["x"].attrs["axis"] = "X"
     record.update(_scalars(runs))
-    for name in ("time", *naming.SERIES):
+    for name in ("time", *(name for name in naming.SERIES if hasattr(runs[0], name))):
         record[name] = _variable(name, _padded([getattr(run, name) for run in runs]))
     record["snapshot_time"] = _variable("snapshot_time", _padded([run.snapshot_time for run in runs]))
-    record.update(_profiles(runs, inside, places["x"].dims[-1]))
+    if places:
+        record["x"].attrs["axis"] = "X"
+        record.update(_profiles(runs, inside, places["x"].dims[-1]))
     for name, variable in record.items():
         if variable.dims[:1] == ("run",) and name != "id":
             beside = [BESIDE[dim] for dim in variable.dims if BESIDE.get(dim, name) != name]
@@ -97,7 +98,17 @@ def _scalars(runs: list["Run"]) -> dict[str, Variable]:
     record["status"].attrs["comment"] = "; ".join(f"{k}: {v}" for k, v in naming.STATUSES.items())
     for name in naming.SCALARS:
         record[name] = _variable(name, _column(runs, name))
+    made = [scalars.of(run) for run in runs]
+    for name, meant in scalars.NAMES.items():
+        values = np.array([of_run[name] for of_run in made], float)
+        attrs = {"units": meant.unit, "long_name": meant.long_name, "_FillValue": np.nan}
+        record[name] = Variable(meant.dims, values, attrs)
     return record
+
+
+def _no_grid(runs: list["Run"]) -> tuple[list[slice], dict[str, Variable]] | None:
+    """Return no places of cells for runs whose profiles are not kept; None for others."""
+    return None if any(run.x.size for run in runs) else ([], {})
 
 
 def _shared_grid(runs: list["Run"]) -> tuple[list[slice], dict[str, Variable]] | None:
@@ -195,7 +206,7 @@ def _text(values: list) -> np.ndarray:
 def _padded(arrays: list[np.ndarray]) -> np.ndarray:
     """Return arrays stacked along a new first axis, the last axis padded with NaN to the longest."""
     longest = max(array.shape[-1] for array in arrays)
-    joined = np.full((len(arrays), *arrays[0].shape[:-1], longest), np.nan)
+    joined = np.full((len(arrays), *arrays[0].shape[:-1], longest), np.nan, arrays[0].dtype)
     for row, array in zip(joined, arrays, strict=True):
         row[..., : array.shape[-1]] = array
     return joined

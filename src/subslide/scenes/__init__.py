@@ -29,6 +29,7 @@ Its docstring is its section of config/README.md. Formulas that the initial stat
 judge how it goes on are in `subslide.exact`, under the scene's name.
 """
 
+import functools
 from importlib import import_module
 from types import ModuleType
 from typing import Any, NamedTuple
@@ -76,6 +77,7 @@ class State(NamedTuple):
     v2: np.ndarray | float = 0.0
 
 
+@functools.cache
 def load(name: str) -> ModuleType:
     """Return the scene module of that name."""
     return import_module(f"{__name__}.{name}")

@@ -10,10 +10,11 @@ from subslide.models.build import build
 from subslide.models.limits import LARGEST_BOX
 from subslide.naming import STATUSES
 from subslide.points import Point
-from subslide.solver.answer import Snapshot, describe, make_run, room_for_waves, taken
+from subslide.solver.answer import describe, make_run, room_for_waves
 from subslide.solver.checkpoint import Keeper, Saved
-from subslide.solver.loop import advance_to, start_threads, warm_up
+from subslide.solver.loop import Samples, advance_to, start_threads, warm_up
 from subslide.solver.run import Run
+from subslide.solver.snapshots import Snapshot, taken
 from subslide.study import choice
 from subslide.study.checking import check_point
 
@@ -23,8 +24,19 @@ DRY_DEPTH = 1e-6
 GROWTH = 1.5
 """A box whose edge the front reaches grows by GROWTH, up to LARGEST_BOX times the paper's; the sea has no such edge."""
 
+MOST_ROOM = 12
+"""Most of it, over the paper's box: with fewer, waves of deep water come to the end of two runs in five."""
+
+ROOM, REST = 1.15, 1.8
+"""Room that a round sea starts with, over the way of a low wave until the end, and when most columns are at rest: by
+REST/m in R / sqrt(g H2 (1-r))."""
+
 SPARE = 32
 """Cells that a sea starts with beyond where its waves may come: steps look some vectors ahead."""
+
+ALIKE = 128
+"""Round seas have whole multiples of so many cells, so that runs share arrays and layouts; of a line without still
+water at both ends the last bits depend on its length."""
 
 ENDED = {
     k.AT_REST: "ok",
@@ -42,6 +54,7 @@ def solve(
     threads: int = 1,
     progress: Callable[[float], object] | None = None,
     keeper: Keeper | None = None,
+    profiles: bool = True,
 ) -> Run:
     """Return the `Run` of a point; a numerical failure is a status, never an exception.
 
@@ -55,6 +68,8 @@ def solve(
         Function that is called now and then with the time in s that the run has reached.
     keeper
         Where the state of a long run is saved, and was.
+    profiles
+        Whether profiles and fields are kept; all else has the same bits without.
 
     Returns
     -------
@@ -71,7 +86,7 @@ def solve(
     saved = keeper.under_way(point) if keeper else None
     box = saved.box if saved else first_box(point)
     while True:
-        run = attempt(point, box, progress, keeper, saved)
+        run = attempt(point, box, progress, keeper, saved, profiles)
         grown = math.ceil(box * GROWTH)
         if run.status != "left_domain" or choice.at_sea(point) or grown > LARGEST_BOX * point.half_cells:
             return run
@@ -87,8 +102,13 @@ def first_box(point: Point) -> int:
     if not choice.at_sea(point) or choice.of(point).model == "one-layer":
         return box
     last = max(point.profile_times, default=0.0) if point.t_end is None else point.t_end
-    room = 1.1 * point.wave_reach(last) / point.scaled_dx + SPARE
-    return math.ceil(min(max(box, room), LARGEST_BOX * box + SPARE))
+    if choice.of(point).geometry == "line":
+        room = 1.1 * point.wave_reach(last) / point.scaled_dx + SPARE
+        return math.ceil(min(max(box, room), LARGEST_BOX * box + SPARE))
+    if point.t_end is None and point.least_friction > 0:
+        last = max(last, REST / point.least_friction / math.sqrt(1 - point.r) * point.time_scale)
+    room = math.ceil((ROOM * point.wave_reach(last) / point.scaled_dx + SPARE) / ALIKE) * ALIKE
+    return max(box, min(room, MOST_ROOM * box))
 
 
 def attempt(
@@ -97,6 +117,7 @@ def attempt(
     progress: Callable[[float], object] | None,
     keeper: Keeper | None = None,
     saved: Saved | None = None,
+    profiles: bool = True,
 ) -> Run:
     """Return the run in a box of a size, its surface watched within the smallest box.
 
@@ -106,7 +127,7 @@ def attempt(
         The run.
     box
         Cells from the axis to the end of the box.
-    progress, keeper
+    progress, keeper, profiles
         As for `solve`.
     saved
         State in that box to go on from.
@@ -125,34 +146,36 @@ def attempt(
     if point.t_end is None:
         clock[k.REST_FROM] = max(times[-1] / time_scale if times else 0.0, np.nextafter(0.0, 1.0))
     warm_up(model)
-    chunks: list[np.ndarray] = []
+    kept = Samples()
     snapshots: list[Snapshot] = []
     wall = 0.0
     if saved:
         model.resume(saved.model)
-        clock, wall, chunks, snapshots = saved.clock, saved.wall, [saved.samples], saved.snapshots
+        clock, wall, snapshots = saved.clock, saved.wall, saved.snapshots
+        kept = Samples(saved.samples)
 
     def look(seconds: float) -> None:
         """Show how far the run has come, and save it if that is due."""
         if progress:
             progress(clock[k.NOW] * time_scale)
         if keeper and keeper.due:
-            sampled = np.concatenate(chunks)
-            keeper.save(point, Saved(box, model.state(), clock, sampled, snapshots, wall + seconds))
+            keeper.save(point, Saved(box, model.state(), clock, kept.taken, snapshots, wall + seconds))
 
     for stop in sorted({*times, end})[len(snapshots) :]:
         clock[k.STOP] = stop / time_scale
-        outcome, seconds = advance_to(model, clock, chunks, look)
+        outcome, seconds = advance_to(model, clock, kept, look)
         wall += seconds
         reached = clock[k.NOW] >= clock[k.STOP]
         if reached and stop in times:
-            snapshots.append(taken(stop, model, point.fields))
+            snapshots.append(taken(stop, model, profiles, point.fields))
         if outcome != k.REACHED:
             break
     if not (reached and stop in times):  # else the end has its snapshot
         last = float(clock[k.NOW] * time_scale)
-        snapshots.append(taken(last, model, point.fields))
-    sampled = np.concatenate(chunks)
+        snapshots.append(taken(last, model, profiles, point.fields))
+    sampled = kept.taken
     status = ENDED.get(outcome, "ok" if point.t_end is not None else "not_at_rest")
     detail = "" if status == "ok" else describe(status, model, sampled, time_scale)
-    return make_run(point, model, sampled, snapshots, (status, detail), wall, clock, room)
+    run = make_run(point, model, sampled, snapshots, (status, detail), wall, clock, room)
+    model.release()
+    return run

@@ -1,7 +1,6 @@
 """From the scaled samples and snapshots of a loop to a run in SI units and words."""
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
@@ -16,44 +15,12 @@ from subslide.naming import FINISHED, FRONT_THRESHOLDS, STATUSES
 from subslide.points import Point
 from subslide.solver.arrest import time_of_arrest
 from subslide.solver.run import Run
+from subslide.solver.snapshots import Snapshot, profiles_in_si
 from subslide.study import choice
 
 SMEARED = 4
 """Cells by which a scheme lets a wave be early: where the box was tried against one six times as wide, the surface then
 differed by 0.3 % at most before `wave_free_until`, from 100 cells on and a_H 0.2 to 10."""
-
-
-class Snapshot(NamedTuple):
-    """Time (s) of a snapshot, and scaled centres along x, profiles there and, where they are kept, fields, by name.
-
-    Where cells move, their widths too, else None.
-    """
-
-    time: float
-    x: np.ndarray
-    width: np.ndarray | None
-    profile: dict[str, np.ndarray]
-    fields: dict[str, np.ndarray] | None
-
-
-def taken(time: float, model: Model, fields: bool) -> Snapshot:
-    """Return the snapshot of a model as it is.
-
-    Parameters
-    ----------
-    time
-        Time (s) that it has reached.
-    model
-        What is run.
-    fields
-        Whether fields are kept.
-
-    Returns
-    -------
-    Snapshot
-        Copies of its profiles and fields.
-    """
-    return Snapshot(time, model.x, model.width, model.profile(), model.fields() if fields else None)
 
 
 def describe(status: str, model: Model, sampled: np.ndarray, time_scale: float) -> str:
@@ -105,7 +72,7 @@ def series_in_si(model: Model, point: Point, sampled: np.ndarray, stood: bool) -
     """
     volume = model.copies * point.column_height * point.radius**model.dimensions
     si = Scales(point.radius, point.column_height, point.g, volume, model.copies)
-    column = sampled.T
+    column = np.ascontiguousarray(sampled.T)
     front = column[samples.FRONT : samples.FRONT + samples.FRONTS]
     # 0 where no cell beyond the axis reaches the threshold: there is the edge of a dam, or nothing
     at_axis = choice.of(point).geometry == "line" and column[samples.COLUMN["sediment_volume"]].max() > 0
@@ -114,11 +81,11 @@ def series_in_si(model: Model, point: Point, sampled: np.ndarray, stood: bool) -
     if side is not None:
         series["x_front"][:, : None if stood else 1] = side * si.length
     alone, fitted = model.settings.layers == 1, choice.is_fitted(point)
-    series["eta_gauge"] = column[samples.GAUGE] * (math.nan if alone or fitted else si.height)
+    nothing = np.full(len(sampled), np.nan)
+    series["eta_gauge"] = nothing if alone or fitted else column[samples.GAUGE] * si.height
     for name, measured in measures.SERIES.items():
         known = model.settings.layers >= measured.layers and not (fitted and measured.wave)
-        values = column[samples.COLUMN[name]]
-        series[name] = measured.si(values, si) if known else np.full(len(sampled), np.nan)
+        series[name] = measured.si(column[samples.COLUMN[name]], si) if known else nothing
     return series
 
 
@@ -170,66 +137,14 @@ def wave_free_until(point: Point, room: float, time: np.ndarray, eta: np.ndarray
     float
         Time (s); beyond the end of the run if none can have been there, NaN as `room` is.
     """
+    if math.isnan(room) or (math.isinf(room) and np.isfinite(eta).all()):
+        return room
     still = point.wave_speed
     pace = 3 * np.sqrt(still**2 + point.g * np.fmax.accumulate(eta)) - 2 * still
     gone = np.append(0.0, np.cumsum(pace[1:] * np.diff(time)))
     if gone[-1] < room:
         return float(time[-1] + (room - gone[-1]) / pace[-1])
     return float(np.interp(room, gone, time))
-
-
-def shared(model: Model, snapshots: list[Snapshot]) -> tuple[np.ndarray, list[dict[str, np.ndarray]]]:
-    """Return centres along x, and the profiles there, of the box and beyond it as far as any grains went.
-
-    Parameters
-    ----------
-    model
-        What was run, in its last state.
-    snapshots
-        Snapshots, of which those of an open sea may have fewer cells than the last.
-
-    Returns
-    -------
-    tuple of ndarray and list
-        Scaled centres (nx), or of each snapshot (snapshots, nx) where cells move, and the profiles by name, each (nx),
-        of each snapshot.
-    """
-    if model.width is not None:
-        return np.stack([snapshot.x for snapshot in snapshots]), [one.profile for one in snapshots]
-    x = model.x
-    kept = np.abs(x) < model.half_width
-    profiles = []
-    for snapshot in snapshots:
-        before = int(np.searchsorted(x, snapshot.x[0]))
-        ends = before, len(x) - before - len(snapshot.x)
-        profile = snapshot.profile
-        if any(ends):
-            profile = {name: np.pad(values, ends, mode="edge") for name, values in profile.items()}
-        profiles.append(profile)
-        kept |= profiles[-1]["h2"] > model.settings.dry_depth
-    first, last = np.flatnonzero(kept)[[0, -1]]
-    part = slice(first, last + 1)
-    return x[part], [{name: values[part] for name, values in profile.items()} for profile in profiles]
-
-
-def in_metres(values: list[dict[str, np.ndarray]], name: str, height: float) -> np.ndarray:
-    """Return one of the profiles or fields of each snapshot in m.
-
-    Parameters
-    ----------
-    values
-        Scaled profiles or fields, by name, of each snapshot.
-    name
-        The wanted one.
-    height
-        Column height (m).
-
-    Returns
-    -------
-    ndarray
-        Values (snapshots, ...).
-    """
-    return np.stack([of_snapshot[name] for of_snapshot in values]) * height
 
 
 def make_run(
@@ -268,32 +183,23 @@ def make_run(
     Run
         Its answer.
     """
-    height, time_scale = point.column_height, point.time_scale
-    x, profiles = shared(model, snapshots)
-    whole = [snapshot.fields for snapshot in snapshots if snapshot.fields]
-    widths = [snapshot.width for snapshot in snapshots if snapshot.width is not None]
+    time_scale = point.time_scale
     time = sampled[:, samples.TIME] * time_scale
     series = series_in_si(model, point, sampled, stood=clock[k.REST_SINCE] == 0)
     front = series["x_front"]
     status, detail = ended
-    final = status in FINISHED
     free = wave_free_until(point, room, time, series["max_abs_eta_outside"])
-    alone = model.settings.layers == 1
-    rested = clock[k.REST_SINCE] >= 0 and final
+    final = status in FINISHED
+    rested = final and clock[k.REST_SINCE] >= 0
     return Run(
         point=point,
         model=model.name,
         model_reason=choice.of(point).reason,
         dx=math.nan if choice.is_fitted(point) else point.dx,
-        x=x * point.radius,
         time=time,
         series=series,
         snapshot_time=np.array([snapshot.time for snapshot in snapshots]),
-        h2=in_metres(profiles, "h2", height),
-        eta=np.full((len(profiles), x.shape[-1]), np.nan) if alone else in_metres(profiles, "eta", height),
-        h2_diagonal=in_metres(profiles, "h2_diagonal", height) if "h2_diagonal" in profiles[0] else None,
-        h2_field=in_metres(whole, "h2", height).astype(np.float32) if whole else None,
-        eta_field=in_metres(whole, "eta", height).astype(np.float32) if whole else None,
+        **profiles_in_si(point, model, snapshots),
         L_f=front[:, -1].copy() if final else np.full(len(FRONT_THRESHOLDS), np.nan),
         status=status,
         status_detail=detail,
@@ -303,7 +209,6 @@ def make_run(
         time_of_arrest=np.array([time_of_arrest(time, one) if rested else np.nan for one in front]),
         time_at_rest=float(clock[k.REST_SINCE] * time_scale if rested else np.nan),
         box_half_width=model.half_width * point.radius,
-        width=np.stack(widths) * point.radius if widths else None,
         grid=choice.of(point).grid,
         grid_reason=choice.of(point).grid_reason,
     )

@@ -17,8 +17,8 @@ import numpy as np
 from subslide import source_hash
 from subslide.files import replacing
 from subslide.points import Point
-from subslide.solver.answer import Snapshot
 from subslide.solver.run import Run
+from subslide.solver.snapshots import Snapshot
 
 EVERY = 300.0
 """Seconds from one saving to the next: a run that takes less is never saved."""
@@ -77,6 +77,7 @@ class Keeper:
         self.ended: dict[str, Run] = {}
         self._unsaved: list[Run] = []
         self._last = time.monotonic()
+        self._again = folder.is_dir()
         for path in self._groups():
             self.ended |= self._runs(path)
 
@@ -97,6 +98,8 @@ class Keeper:
 
     def under_way(self, point: Point) -> Saved | None:
         """Return the state of a point's run that was under way when the batch was killed, if it is whole."""
+        if not self._again:
+            return None
         about, arrays = self._read(self._state(point.id))
         try:
             if not about or about["id"] != point.id:

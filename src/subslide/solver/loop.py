@@ -32,6 +32,9 @@ COMPILING = "subslide: compiling the kernels of this model, once: about a minute
 WAITING = "subslide: waiting for another process that compiles the kernels of this model: about a minute"
 NOT_KEPT = "subslide: compiled kernels are not kept, so the next run compiles anew: "
 
+_threads: list[int] = []
+"""How many threads solve, once that has been said."""
+
 _loaded: set[tuple[type, ...]] = set()
 """Compiled code that this process has used."""
 
@@ -44,8 +47,11 @@ def thresholds(model: Model) -> tuple[float, ...]:
 
 def start_threads(threads: int) -> None:
     """Make this many threads solve, as far as numba has them; ConfigError if its threading layer cannot be used."""
+    if _threads == [threads]:
+        return
     try:
         numba.set_num_threads(max(1, min(threads, numba.config.NUMBA_NUM_THREADS)))
+        _threads[:] = [threads]
     except (ImportError, RuntimeError, ValueError):
         layer = os.environ.get("NUMBA_THREADING_LAYER", "default")
         raise ConfigError(
@@ -54,12 +60,11 @@ def start_threads(threads: int) -> None:
 
 
 def warm_up(model: Model) -> None:
-    """Compile the time loop (or load it) with a segment of no length, which changes nothing but derived values."""
-    track = Track(k.started(), np.empty((2, samples.COLUMNS)), np.zeros(2, np.int64))
+    """Compile the time loop, or load it, once: by a segment of no length, which changes nothing but derived values."""
     code = type(model), type(model.settings), type(model.level)
     if code in _loaded:
-        model.advance(thresholds(model), track)
         return
+    track = Track(k.started(), np.empty((2, samples.COLUMNS)), np.zeros(2, np.int64))
     notice = threading.Timer(PATIENCE, lambda: _say(WAITING if cache.waiting() else COMPILING))
     notice.daemon = True
     notice.start()
@@ -79,12 +84,56 @@ def _say(line: str) -> None:
     print(line, file=sys.stderr)
 
 
-def advance_to(
-    model: Model, clock: np.ndarray, chunks: list[np.ndarray], look: Callable[[float], object]
-) -> tuple[int, float]:
-    """Run the loop until it ends, and keep its samples, one for each instant.
+class Samples:
+    """Samples of a run, one for each instant, in one array that grows.
 
-    A loop that starts again samples its first instant again, so the last sample before it is dropped.
+    Parameters
+    ----------
+    before
+        Samples (samples, columns) to go on from.
+    """
+
+    def __init__(self, before: np.ndarray | None = None) -> None:
+        """Begin with what is there."""
+        self._rows = np.empty((CHUNK, samples.COLUMNS)) if before is None else before
+        self._counters = np.zeros(2, np.int64)
+        self._counters[k.SAMPLES] = 0 if before is None else len(before)
+
+    @property
+    def taken(self) -> np.ndarray:
+        """Samples (samples, columns), a view."""
+        return self._rows[: self._counters[k.SAMPLES]]
+
+    def track(self, clock: np.ndarray, most: int) -> Track:
+        """Return the track of a launch that takes so many samples at most.
+
+        A loop that starts again samples its first instant again, in place of the last sample before it.
+
+        Parameters
+        ----------
+        clock
+            Scaled times, see `kernels.clock`.
+        most
+            Samples.
+
+        Returns
+        -------
+        Track
+            Where the loop goes on.
+        """
+        first = max(0, int(self._counters[k.SAMPLES]) - 1)
+        if first + most > len(self._rows):
+            longer = np.empty((2 * len(self._rows) + most, samples.COLUMNS))
+            longer[:first] = self._rows[:first]
+            self._rows = longer
+        self._counters[k.SAMPLES] = first
+        return Track(clock, self._rows[: first + most], self._counters)
+
+
+def advance_to(
+    model: Model, clock: np.ndarray, kept: Samples, look: Callable[[float], object]
+) -> tuple[int, float]:
+    """Run the loop until it ends, and keep its samples.
 
     Parameters
     ----------
@@ -92,8 +141,8 @@ def advance_to(
         What is run.
     clock
         Scaled times, see `kernels.clock`; the loop moves it on.
-    chunks
-        Arrays (samples, columns), which get those of this loop.
+    kept
+        Gets the samples of this loop.
     look
         Function that is called now and then with the seconds that this loop has taken, when model, clock and samples
         are what it can go on from.
@@ -104,18 +153,18 @@ def advance_to(
         Why the loop ended, see `kernels.clock`, and the seconds that it took.
     """
     wall, step = 0.0, model.cells.h1.size / CELLS_A_SECOND
+    depths = thresholds(model)
     while True:
-        size = int(max(FEWEST, min(CHUNK, LAUNCH / max(step, 1e-9))))
-        track = Track(clock, np.empty((size, samples.COLUMNS)), np.zeros(2, np.int64))
+        most = int(max(FEWEST, min(CHUNK, LAUNCH / max(step, 1e-9))))
+        track = kept.track(clock, most)
+        first = int(track.counters[k.SAMPLES])
         started = time.perf_counter()
-        model.advance(thresholds(model), track)
-        taken = time.perf_counter() - started
-        wall, step = wall + taken, taken / int(track.counters[k.SAMPLES])
-        if chunks:
-            chunks[-1] = chunks[-1][:-1]
-        chunks.append(track.samples[: track.counters[k.SAMPLES]])
+        model.advance(depths, track)
+        seconds = time.perf_counter() - started
+        samples_taken, outcome = track.counters.tolist()
+        wall, step = wall + seconds, seconds / (samples_taken - first)
         look(wall)
-        if track.counters[k.OUTCOME] == k.NO_ROOM:
+        if outcome == k.NO_ROOM:
             model.make_room(float(clock[k.NOW]))
-        elif track.counters[k.OUTCOME] != k.FULL:
-            return int(track.counters[k.OUTCOME]), wall
+        elif outcome != k.FULL:
+            return outcome, wall

@@ -46,6 +46,8 @@ class Run:
         Time in s until which no wave can have been at the open edge of the box; NaN without one.
     width
         Widths (snapshots, cells) in m of the cells of a fitted grid, whose edges move; None on a uniform one.
+    scalars
+        What `records.scalars` made of the samples, by name; None before it is asked for.
     grid, grid_reason
         Grid that was solved on, `uniform` or `fitted`, and why, in words.
     """
@@ -73,6 +75,7 @@ class Run:
     time_at_rest: float
     box_half_width: float
     width: np.ndarray | None = None
+    scalars: dict[str, float] | None = None
     grid: str = "uniform"
     grid_reason: str = "asked for"
 

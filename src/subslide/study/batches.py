@@ -1,25 +1,29 @@
 """Batches: points that one process solves into one record, and the file that states them, with whole points."""
 
+import heapq
 import json
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 from subslide.keys import kept, words
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
-from subslide.study import choice, cost, rows
+from subslide.study import choice, cost, pace, rows
 from subslide.study.yaml_files import read_text
 
-SECONDS = (2.0, 60.0)
-"""Least and greatest estimated cost of a batch: starting a process costs a second; a lost batch at most a minute."""
+PROCESS = 1.2
+"""Seconds that a job takes to start and to end, beside its runs."""
 
-PARTS = 16
-"""Batches that a set of new points makes if their cost allows it."""
+LEAST = 2.5
+"""Seconds of runs below which a job is not worth its start, if there are others."""
 
-MOST_POINTS, MOST_BYTES = 250, 256e6
-"""Limits of one record."""
+MOST_POINTS = {"all": 250, "series": 1_000, "summary": 20_000}
+"""Most runs of one record, by what is kept of each."""
+
+MOST_BYTES = 256e6
+"""Estimated size from which on there are several records."""
 
 MOST_BATCH_BYTES = 100_000_000
 """Size from which on a file is no batch."""
@@ -107,32 +111,88 @@ def read_batch(spec: Path | str) -> Spec:
     return Spec(list(points.values()), keep)
 
 
-def split(points: list[Point]) -> list[list[Point]]:
-    """Return batches of points: one cell size and one set of kernels in each, balanced by estimated cost.
+class Sharing(NamedTuple):
+    """How points are shared out to jobs.
 
-    A record of unlike cell sizes repeats the places of cells at each snapshot: default runs on 200, 400 and 800 cells
-    take a third more bytes in one than in three. The number of cores has no say, so that the files of a study do not
-    depend on it.
+    Attributes
+    ----------
+    keep
+        What is kept of each run, one of `subslide.keys.kept.WORDS`.
+    seconds
+        How long a job shall work (the key `batch_seconds`).
+    cores
+        How many jobs work at the same time.
+    pace
+        Seconds that runs have taken on this machine over those estimated, by kind of run (`study.pace`).
+    """
+
+    keep: str = "all"
+    seconds: float = 30.0
+    cores: int = 2
+    pace: Mapping[str, float] = {}
+
+    def cost(self, point: Point) -> float:
+        """Return the seconds that a run is taken to need on this machine."""
+        return cost.seconds(point, self.keep) * self.pace.get(pace.kind(point, self.keep), 1.0)
+
+
+ALONE = Sharing()
+"""Points of a study without a say, on a machine of unknown pace."""
+
+
+def split(points: Sequence[Point], sharing: Sharing = ALONE) -> list[list[Point]]:
+    """Return batches of points, the costliest first, so that cores which work on them end together.
+
+    One set of kernels has each batch and, where profiles are kept, one cell size: a record of unlike sizes repeats the
+    places of cells at each snapshot (default runs on 200, 400 and 800 cells take a third more bytes in one than in
+    three). No answer depends on which batch a point is in.
+
+    Parameters
+    ----------
+    points
+        Points that are to be solved.
+    sharing
+        How they are shared out.
+
+    Returns
+    -------
+    list of list of Point
+        Points of each batch, in the order in which they were given.
     """
     groups: dict[tuple, list[Point]] = {}
     for point in points:
-        size = 0.0 if choice.is_fitted(point) else point.dx
+        size = 0.0 if sharing.keep != "all" or choice.is_fitted(point) else point.dx
         groups.setdefault((choice.kernels(point), size, point.fields), []).append(point)
-    total = sum(cost.seconds(point) for point in points)
-    target = min(max(total / PARTS, SECONDS[0]), SECONDS[1])
-    return [batch for group in groups.values() for batch in _balanced(group, target)]
+    costs = {name: [sharing.cost(point) for point in group] for name, group in groups.items()}
+    even = sum(map(sum, costs.values())) / sharing.cores
+    target = min(max(even if len(groups) == 1 else even / 2, LEAST), sharing.seconds)
+    batches = []
+    for name, group in groups.items():
+        for places in _bins(group, costs[name], target, sharing):
+            batches.append((sum(costs[name][n] for n in places), [group[n] for n in places]))
+    return [batch for _, batch in sorted(batches, key=lambda batch: -batch[0])]
 
 
-def _balanced(points: list[Point], target: float) -> list[list[Point]]:
-    """Return points in bins of about `target` seconds each: the costliest first, into the least filled bin."""
-    total = sum(cost.seconds(point) for point in points)
-    size = sum(cost.disk(point) for point in points)
-    bins = max(math.ceil(total / target), math.ceil(len(points) / MOST_POINTS), math.ceil(size / MOST_BYTES))
-    bins = min(bins, len(points))
-    filled = [0.0] * bins
-    members: list[list[int]] = [[] for _ in range(bins)]
-    for n in sorted(range(len(points)), key=lambda n: (-cost.seconds(points[n]), n)):
-        least = min(range(bins), key=lambda b: (filled[b], len(members[b]), b))
-        filled[least] += cost.seconds(points[n])
-        members[least].append(n)
-    return [[points[n] for n in sorted(bin_)] for bin_ in members]
+def _bins(points: list[Point], costs: list[float], target: float, sharing: Sharing) -> list[list[int]]:
+    """Return the places of points in bins of about `target` seconds: the costliest first, into the least filled bin.
+
+    Where every core gets several bins, the last round is one of two halves, so that cores end together though
+    estimates are not exact.
+    """
+    total, size = sum(costs), sum(cost.of(point).kept(sharing.keep) for point in points)
+    rounds = total / target / sharing.cores
+    count = math.ceil(rounds) * sharing.cores if rounds > 1.1 else math.ceil(total / target - 0.1)
+    halves = 2 * sharing.cores if rounds > 2 else 0
+    count = max(
+        count + halves // 2, math.ceil(len(points) / MOST_POINTS[sharing.keep]), math.ceil(size / MOST_BYTES)
+    )
+    count = min(count, len(points))
+    filled = [(total / count / 2 if number >= count - halves else 0.0, 0, number) for number in range(count)]
+    heapq.heapify(filled)
+    members: list[list[int]] = [[] for _ in range(count)]
+    for place in sorted(range(len(points)), key=lambda place: (-costs[place], place)):
+        seconds, held, number = heapq.heappop(filled)
+        members[number].append(place)
+        if held + 1 < MOST_POINTS[sharing.keep] or len(filled) == 0:
+            heapq.heappush(filled, (seconds + costs[place], held + 1, number))
+    return [sorted(places) for places in members if places]

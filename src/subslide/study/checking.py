@@ -3,7 +3,8 @@
 from typing import Any
 
 from subslide.keys import schema
-from subslide.points import RUN_KEYS, STANDS_FOR, Point
+from subslide.keys.values import RUN_KEYS, STANDS_FOR
+from subslide.points import Point
 from subslide.study import scene_options, together
 
 MARK = "_checked"

@@ -8,6 +8,7 @@ from subslide import scenes
 from subslide.keys import names
 from subslide.keys.entries import ENTRIES
 from subslide.points import RUN_KEYS, Point
+from subslide.study.remembering import Remembered
 
 EXACT = {
     "round": ("radial", "quarter", "plane"),
@@ -27,8 +28,9 @@ WORDS = {
 LEAN = {key: tuple(ENTRIES[key]["lean"]) for key in RUN_KEYS if "lean" in ENTRIES[key]}
 """Values that the lean kernels know, of each key that has others."""
 
-MOST_KEPT = 1 << 18
-"""Choices that are remembered: those of the largest study, and some."""
+
+KNOWN = "_choice"
+"""Attribute by which a point, which cannot change, has its choice."""
 
 
 class Choice(NamedTuple):
@@ -58,9 +60,16 @@ class Choice(NamedTuple):
     general: bool
 
 
-@functools.lru_cache(MOST_KEPT)
 def of(point: Point) -> Choice:
     """Return how a point is solved: by its own model, or for `auto` by the cheapest that gives all that is asked."""
+    if KNOWN not in vars(point):
+        vars(point)[KNOWN] = _choice(point)
+    return vars(point)[KNOWN]
+
+
+@Remembered
+def _choice(point: Point) -> Choice:
+    """Return how a point is solved."""
     symmetry = scenes.symmetry(point)
     model, reason = point.model, "asked for"
     if model == "auto":

@@ -1,8 +1,8 @@
 """From a YAML file to a study: checked values, and the table of its points."""
 
+import functools
 from collections.abc import Collection
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +10,7 @@ from subslide.keys import schema, words
 from subslide.keys.designs import MOST_POINTS
 from subslide.keys.schema import ConfigError
 from subslide.points import RUN_KEYS, Point
-from subslide.study import choice, cost, designs, expansion, forms, whole_study
+from subslide.study import choice, designs, expansion, forms, limits, whole_study
 from subslide.study.designs import Design
 from subslide.study.expansion import Grid
 from subslide.study.yaml_files import read_yaml
@@ -52,12 +52,12 @@ class Study:
     asked: dict[str, Any] = field(default_factory=dict)
     designs: tuple[dict[str, Any], ...] = ()
 
-    @property
+    @functools.cached_property
     def points(self) -> tuple[Point, ...]:
         """Points in the order of the tables."""
         return tuple(point for _, point in self.runs)
 
-    @property
+    @functools.cached_property
     def companions(self) -> tuple[tuple[Point, str, Point], ...]:
         """Run, role and point of each companion: none without bands, else two for each run on a uniform grid."""
         return tuple(
@@ -67,7 +67,7 @@ class Study:
             for role, ratio in COARSENING.items()
         )
 
-    @cached_property
+    @functools.cached_property
     def solved(self) -> tuple[Point, ...]:
         """Points to solve, without repeats: the runs, then those companions that are not runs as well."""
         companions = (point for *_, point in self.companions)
@@ -79,6 +79,12 @@ class Study:
         if self.keep_at_least:
             return self.keep_at_least
         return "all" if len(self.solved) <= MOST_KEPT_WHOLE else "summary"
+
+    @property
+    def batch_seconds(self) -> float:
+        """Seconds that a job shall work for."""
+        default: float = schema.properties()["batch_seconds"]["default"]
+        return float(self.asked.get("batch_seconds") or default)
 
     @property
     def keep_at_least(self) -> str:
@@ -123,18 +129,20 @@ def make_study(values: dict) -> Study:
         ids = []
         with schema.placed(grid.place):
             grid.check()
-            for label, point in expansion.points(grid):
-                _check_coarsening(point, bands)
+            along = grid.along()
+            for label, point in expansion.points(along):
+                if bands:
+                    _check_coarsening(point)
                 ids.append(point.id)
                 runs.setdefault(point.id, (label, point))
-        listed += expansion.members(grid, ids)
+        listed += expansion.members(grid, along, ids)
     figures = whole_study.figures_of(
         whole["figures"], [point for _, point in runs.values()], {one["kind"] for one in listed}
     )
     study = Study(whole["study"], figures, tuple(runs.values()), bands, dict(values), tuple(listed))
     alone = sum(not choice.is_fitted(point) for point in study.points) if bands else 0
     _check_count(len(runs) + alone * len(COARSENING), ", companions for bands among them")
-    cost.check(study.solved, whole, "the study")
+    limits.check(study.solved, whole, "the study", study.keep)
     return study
 
 
@@ -178,7 +186,7 @@ def make_point(values: dict, names: dict[str, str] | None = None) -> Point:
             value = value[0]
         single[key] = schema.checked(key, value, names.get(key, key))
     point = resolve(single, names)[1]
-    cost.check([point], whole, "the run")
+    limits.check([point], whole, "the run")
     return point
 
 
@@ -205,7 +213,7 @@ def resolve(values: dict, names: dict[str, str] | None = None) -> tuple[str, Poi
         If values do not go with one another: one line.
     """
     maker = expansion.Maker(values, (names or {}).get("scene_options", "scene_options"))
-    return maker.point(expansion.as_held(values))
+    return maker.point(dict(zip(values, expansion.as_held(values, values.values()), strict=True)))
 
 
 def _grids(values: dict) -> list[Grid]:
@@ -245,10 +253,10 @@ def _check_count(count: int, among: str = "") -> None:
         raise ConfigError(f"the grid has {count} points{among}; allowed: at most {MOST_POINTS}")
 
 
-def _check_coarsening(point: Point, bands: bool) -> None:
+def _check_coarsening(point: Point) -> None:
     """Raise a ConfigError unless cells halve twice in a study with bands, but of a fitted grid, without companions."""
     coarsest, left = divmod(point.cells, max(COARSENING.values()))
-    if bands and (left or coarsest < FEWEST_CELLS) and not choice.is_fitted(point):
+    if (left or coarsest < FEWEST_CELLS) and not choice.is_fitted(point):
         raise ConfigError(
             f"cells: {point.cells} is not allowed with bands: true, which needs runs with cells/2 and cells/4;"
             f" allowed: a multiple of 4 from {4 * FEWEST_CELLS}"

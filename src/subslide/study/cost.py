@@ -1,4 +1,4 @@
-"""What points cost, told before they are solved: seconds on one core, memory, bytes on the disk; and a study's limits.
+"""What points cost, told before they are solved: seconds on one core, memory, bytes on the disk.
 
 Measured on columns of 50 to 3,200 cells (docs/design/measured.md). A run to rest is taken to end when friction has
 stopped its grains, at 1.8/m in R / sqrt(g H2 (1-r)) with m = tan(delta) R / H2 (91 of 96 columns had come to rest by
@@ -7,17 +7,17 @@ collapses is longer than any estimate. Imports no kernels.
 """
 
 import math
-from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 from subslide import scenes
 from subslide.keys import names
-from subslide.keys.schema import ConfigError
 from subslide.points import Point
 from subslide.study import choice
 
-START = 0.005
-"""Seconds of a run of no steps."""
+START = {"all": 0.004, "series": 0.003, "summary": 0.001}
+"""Seconds of a run of no steps and of its part of a record, by what is kept of it."""
+SUMMARY = 3_000
+"""Bytes of a run in a record that keeps a summary."""
 SECONDS_PER_CELL = {
     ("axial", 1): 2.5e-8,
     ("axial", 2): 3.7e-8,
@@ -65,41 +65,35 @@ COPIES = 4
 """Of the samples, in memory, while a run is made of them."""
 FIELD_BYTES, KEPT_BYTES = 20, 4
 """Of each value of a field at a snapshot, in memory and in a record."""
-AS_TABLE = 1.5
-"""Bytes of a sample in tables over those in records."""
 
 
-class Estimate(NamedTuple):
-    """What a study costs.
+class Cost(NamedTuple):
+    """What a run costs, by itself.
 
     Attributes
     ----------
-    points
-        Number of points that are solved.
-    core_hours
-        Hours on one core.
+    seconds
+        Of its steps, on one core.
     memory
-        Bytes of the process that solves the largest point.
-    disk
-        Bytes of records and tables.
+        Bytes of the process that solves it, its results once included.
+    series, profiles
+        Bytes of what a record may keep of it.
     """
 
-    points: int
-    core_hours: float
+    seconds: float
     memory: float
-    disk: float
+    series: float
+    profiles: float
 
-    def words(self) -> str:
-        """Return the cost in words: time, memory of a job and disk."""
-        seconds = self.core_hours * 3600
-        units = {"seconds": 1, "minutes": 60, "hours": 3600}
-        unit = max(
-            (name for name in units if seconds >= units[name]), default="seconds", key=units.__getitem__
-        )
-        return (
-            f"about {_rounded(max(seconds / units[unit], 1))} core-{unit}, {_rounded(self.memory / 1e6)} MB a job,"
-            f" {_rounded(max(self.disk / 1e6, 1))} MB of records and tables"
-        )
+    def kept(self, keep: str) -> float:
+        """Return the bytes in a record by what is kept, one of `subslide.keys.kept.WORDS`."""
+        if keep == "summary":
+            return min(SUMMARY, self.series)
+        return self.series + (self.profiles if keep == "all" else 0)
+
+
+COST = "_cost"
+"""Attribute of points whose cost was asked for: no value of theirs can change afterwards."""
 
 
 class _Size(NamedTuple):
@@ -112,72 +106,51 @@ class _Size(NamedTuple):
     kind: str
 
 
-def estimate(points: Iterable[Point]) -> Estimate:
-    """Return what points cost together, in some 10 us for each.
+def of(point: Point) -> Cost:
+    """Return what a run costs, in some 20 us the first time.
 
     Parameters
     ----------
-    points
-        Points, such as all that a study solves.
+    point
+        The run.
 
     Returns
     -------
-    Estimate
-        Sums, and the memory of the largest.
+    Cost
+        Seconds, memory and bytes.
     """
-    count, time, most, kept = 0, 0.0, 0.0, 0.0
-    for point in points:
+    known: Cost | None = vars(point).get(COST)
+    if known is None:
         size = _size(point)
-        count += 1
-        time += _seconds(point, size)
-        most = max(most, _memory(point, size))
-        kept += _disk(point, size) + AS_TABLE * 8 * SERIES * min(size.steps, MOST_SAMPLES)
-    return Estimate(count, time / 3600, most, kept)
+        fields = 2 * KEPT_BYTES * size.cells if point.fields else 0
+        series = 8 * SERIES * min(size.steps, MOST_SAMPLES)
+        profiles = _snapshots(point) * (8 * 3 * size.row + fields)
+        known = Cost(_seconds(point, size), _memory(point, size), series, profiles)
+        vars(point)[COST] = known
+    return known
 
 
-def check(points: Iterable[Point], limits: Mapping[str, float], what: str) -> None:
-    """Check that points cost no more than is allowed.
+def seconds(point: Point, keep: str = "all") -> float:
+    """Return the estimated seconds of a run, its part of a record included, on one core.
 
     Parameters
     ----------
-    points
-        Points that are to be solved.
-    limits
-        Value of `max_core_hours`, `max_memory` and `max_disk`.
-    what
-        What messages call the points, such as "the study".
+    point
+        The run.
+    keep
+        What a record keeps of it.
 
-    Raises
-    ------
-    ConfigError
-        If they cost more: one line that names the key which allows it.
+    Returns
+    -------
+    float
+        Seconds.
     """
-    cost = estimate(points)
-    for key, needed, unit in (
-        ("max_core_hours", cost.core_hours, "core-hours"),
-        ("max_memory", cost.memory / 1e9, "GB of memory a job"),
-        ("max_disk", cost.disk / 1e9, "GB on the disk"),
-    ):
-        if needed > limits[key]:
-            raise ConfigError(
-                f"{what} needs about {_rounded(needed)} {unit}; allowed: up to {key}: {limits[key]:g} (the key, or"
-                f" --{key.replace('_', '-')} of run, allows more)"
-            )
-
-
-def seconds(point: Point) -> float:
-    """Return the estimated seconds of a run on one core."""
-    return _seconds(point, _size(point))
+    return START[keep] + of(point).seconds
 
 
 def memory(point: Point) -> float:
     """Return the most bytes that a process which solves a point needs, its results once included."""
-    return _memory(point, _size(point))
-
-
-def disk(point: Point) -> float:
-    """Return the estimated bytes of a run in a record."""
-    return _disk(point, _size(point))
+    return of(point).memory
 
 
 def _size(point: Point) -> _Size:
@@ -254,7 +227,7 @@ def _reach(point: Point, end: float) -> float:
 def _seconds(point: Point, size: _Size) -> float:
     """Return the seconds of a point of a size."""
     slower = GENERAL if choice.of(point).general else 1
-    return START + SECONDS_PER_CELL[size.kind, point.order] * slower * size.solved * size.steps
+    return SECONDS_PER_CELL[size.kind, point.order] * slower * size.solved * size.steps
 
 
 def _memory(point: Point, size: _Size) -> float:
@@ -271,17 +244,6 @@ def _memory(point: Point, size: _Size) -> float:
     )
 
 
-def _disk(point: Point, size: _Size) -> float:
-    """Return the bytes in a record of a point of a size."""
-    fields = 2 * KEPT_BYTES * size.cells if point.fields else 0
-    return 8 * SERIES * min(size.steps, MOST_SAMPLES) + _snapshots(point) * (8 * 3 * size.row + fields)
-
-
 def _snapshots(point: Point) -> int:
     """Return the number of snapshots, the end of the run among them."""
     return 1 + len(point.profile_times)
-
-
-def _rounded(number: float) -> str:
-    """Return a number to three digits, without an exponent and with commas."""
-    return f"{float(f'{number:.3g}'):,g}" if number < 1e6 else f"{float(f'{number:.3g}'):,.0f}"

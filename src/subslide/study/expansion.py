@@ -10,11 +10,14 @@ import numpy as np
 from subslide.keys import schema, words
 from subslide.keys.designs import FRICTION
 from subslide.keys.schema import ConfigError
-from subslide.points import Point, held
+from subslide.keys.values import held
+from subslide.points import Point
 from subslide.study import checking, forms, scene_options, together
 from subslide.study.designs import Design
 
 LABEL = "numerics"
+Axis = tuple[tuple[str, ...], Sequence[tuple]]
+"""Keys that change together along an axis, and their values, row by row."""
 NONE: dict[str, Any] = {}
 """Options of a scene of which none is given."""
 
@@ -45,7 +48,7 @@ class Grid(NamedTuple):
         )
         return math.prod(lengths) * math.prod(design.size for design in self.designs)
 
-    def along(self) -> list[tuple[tuple[str, ...], Sequence[tuple]]]:
+    def along(self) -> list[Axis]:
         """Return the keys and the rows of values of each axis; of scene options a mapping for each combination.
 
         Raises
@@ -57,7 +60,7 @@ class Grid(NamedTuple):
             key: scene_options.along_axes(values) if key == "scene_options" else values
             for key, values in self.axes.items()
         }
-        lists = [((key,), [(value,) for value in values]) for key, values in axes.items()]
+        lists: list[Axis] = [((key,), [(value,) for value in values]) for key, values in axes.items()]
         return [*lists, *((design.names, design.make()) for design in self.designs)]
 
     def check(self) -> None:
@@ -81,13 +84,13 @@ class Grid(NamedTuple):
             raise ConfigError(f"{place}: m: a_2 and delta are stated too; allowed: one of them beside m")
 
 
-def points(grid: Grid) -> Iterator[tuple[str, Point]]:
+def points(along: list[Axis]) -> Iterator[tuple[str, Point]]:
     """Give the label of the numerics, and the point, of each combination of a grid's axes, the last one fastest.
 
     Parameters
     ----------
-    grid
-        The grid.
+    along
+        Keys and rows of each axis, see `Grid.along`.
 
     Yields
     ------
@@ -99,23 +102,21 @@ def points(grid: Grid) -> Iterator[tuple[str, Point]]:
     ConfigError
         If values do not go with one another: one line.
     """
-    along = grid.along()
-    maker = Maker([key for names, _ in along for key in names])
-    held_rows = ([as_held(dict(zip(names, row, strict=True))) for row in rows] for names, rows in along)
-    for parts in itertools.product(*held_rows):
-        values: dict[str, Any] = {}
-        for part in parts:
-            values |= part
-        yield maker.point(values)
+    stated = [key for names, _ in along for key in names]
+    maker = Maker(stated)
+    for parts in itertools.product(*([as_held(names, row) for row in rows] for names, rows in along)):
+        yield maker.point(dict(zip(stated, itertools.chain(*parts), strict=True)))
 
 
-def members(grid: Grid, ids: Sequence[str]) -> list[dict[str, Any]]:
+def members(grid: Grid, along: list[Axis], ids: Sequence[str]) -> list[dict[str, Any]]:
     """Return what points.json says of the Saltelli designs of a grid, from the ids of its points in order.
 
     Parameters
     ----------
     grid
         The grid.
+    along
+        Keys and rows of each of its axes.
     ids
         Id of each combination, repeats among them, as `points` gives them.
 
@@ -128,7 +129,6 @@ def members(grid: Grid, ids: Sequence[str]) -> list[dict[str, Any]]:
     chosen = [design for design in grid.designs if design.kind == "saltelli"]
     if not chosen:
         return []
-    along = grid.along()
     every = np.array(ids, dtype=object).reshape([len(rows) for _, rows in along])
     listed = []
     for design in chosen:
@@ -194,7 +194,7 @@ class Maker:
         )
         if FRICTION in values:
             self._obey_friction(values)
-        point = Point(**values)
+        point = Point.of(values)
         together.check(point)
         checking.mark(point)
         return label, point
@@ -230,20 +230,22 @@ class Maker:
             ) from None
 
 
-def as_held(values: dict[str, Any]) -> dict[str, Any]:
-    """Return checked values by key as points hold them; the scene's options, and m, as they are.
+def as_held(keys: Iterable[str], row: Iterable[Any]) -> tuple:
+    """Return checked values as points hold them; the scene's options, and m, as they are.
 
     Parameters
     ----------
-    values
-        Value by key.
+    keys
+        Key of each value.
+    row
+        The values.
 
     Returns
     -------
-    dict
+    tuple
         The values, numbers in one format.
     """
-    return {
-        key: value if key in (LABEL, "scene_options", FRICTION) else held(key, value)
-        for key, value in values.items()
-    }
+    return tuple(
+        value if key in (LABEL, "scene_options", FRICTION) else held(key, value)
+        for key, value in zip(keys, row, strict=True)
+    )

@@ -50,8 +50,9 @@ def at_work(folder: Path) -> Iterator[None]:
         os.close(handle)
 
 
-def unlock(study: str, results: Path, cache: Path, say: Callable[[str], object]) -> None:
-    """Remove what the lock of Snakemake that a killed run left holds of a study.
+@contextlib.contextmanager
+def alone(study: str, results: Path, cache: Path, say: Callable[[str], object]) -> Iterator[None]:
+    """Hold a study for a block, with no run of it and no job at work.
 
     Parameters
     ----------
@@ -64,6 +65,45 @@ def unlock(study: str, results: Path, cache: Path, say: Callable[[str], object])
     say
         Function that is called with a line if jobs of a killed run have to be waited for.
 
+    Yields
+    ------
+    None
+        Nothing.
+
+    Raises
+    ------
+    ConfigError
+        If another run of the study is at work.
+    """
+    handle = None
+    try:
+        if cache.is_dir():
+            alive = cache / "subslide" / study / "alive"
+            alive.parent.mkdir(parents=True, exist_ok=True)
+            handle = os.open(alive, os.O_RDWR | os.O_CREAT)
+            until = time.monotonic() + PATIENCE
+            while not _locked(handle, fcntl.LOCK_EX | fcntl.LOCK_NB):
+                if time.monotonic() > until:
+                    process = alive.read_text(errors="replace").strip()
+                    raise ConfigError(
+                        f"study: '{study}' is being made by another run, process {process}; allowed: one run at a time"
+                    )
+                time.sleep(0.2)
+        _wait_for_jobs(results / "records", say)
+        yield
+    finally:
+        if handle is not None:
+            os.close(handle)
+
+
+def unlock(study: str, results: Path, cache: Path, say: Callable[[str], object]) -> None:
+    """Remove what the lock of Snakemake that a killed run left holds of a study.
+
+    Parameters
+    ----------
+    study, results, cache, say
+        As for `alone`.
+
     Raises
     ------
     ConfigError
@@ -71,25 +111,11 @@ def unlock(study: str, results: Path, cache: Path, say: Callable[[str], object])
     """
     if not cache.is_dir():
         return
-    alive = cache / "subslide" / study / "alive"
-    alive.parent.mkdir(parents=True, exist_ok=True)
-    handle = os.open(alive, os.O_RDWR | os.O_CREAT)
-    try:
-        until = time.monotonic() + PATIENCE
-        while not _locked(handle, fcntl.LOCK_EX | fcntl.LOCK_NB):
-            if time.monotonic() > until:
-                process = alive.read_text(errors="replace").strip()
-                raise ConfigError(
-                    f"study: '{study}' is being made by another run, process {process}; allowed: one run at a time"
-                )
-            time.sleep(0.2)
-        _wait_for_jobs(results / "records", say)
+    with alone(study, results, cache, say):
         for path in (cache / "locks").glob("*.lock"):
             if _of_study(path.read_bytes(), results):
                 path.unlink()
         _forget_damaged(cache)
-    finally:
-        os.close(handle)
 
 
 def _of_study(lock: bytes, results: Path) -> bool:

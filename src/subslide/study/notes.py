@@ -10,7 +10,8 @@ from typing import NamedTuple
 from subslide import catalogue
 from subslide.keys import words
 from subslide.keys.entries import ENTRIES
-from subslide.points import Point, default_of
+from subslide.keys.values import default_of
+from subslide.points import Point
 from subslide.study import choice
 from subslide.study.cautions import Region
 

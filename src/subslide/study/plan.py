@@ -20,8 +20,8 @@ from subslide.files import RecordError
 from subslide.keys import kept
 from subslide.keys.schema import ConfigError
 from subslide.points import Point, from_dict
-from subslide.study import rows
-from subslide.study.batches import MOST_BATCH_BYTES, spec_text, split
+from subslide.study import cost, pace, rows
+from subslide.study.batches import MOST_BATCH_BYTES, Sharing, spec_text, split
 from subslide.study.config import Study
 
 NAME = re.compile(r"\d{4,9}(p\d{1,4})?")
@@ -71,11 +71,21 @@ class Batch(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """Name of a study, batches that hold its points, by name, and what points.json is to hold."""
+    """Name of a study, what it keeps of each run, batches that hold its points by name, and the text of points.json."""
 
     study: str
+    keep: str
     batches: dict[str, Batch]
     points_text: str
+
+    @property
+    def to_solve(self) -> dict[str, tuple[int, float]]:
+        """Number of points, and estimated seconds, of each batch that is to be solved, by its name."""
+        return {
+            name: (len(batch.points), sum(cost.seconds(point, self.keep) for point in batch.points))
+            for name, batch in self.batches.items()
+            if batch.text
+        }
 
     @property
     def faults(self) -> list[str]:
@@ -106,7 +116,7 @@ def record_path(folder: Path, name: str) -> Path:
     return folder / "records" / f"{name}.nc"
 
 
-def plan(study: Study, folder: Path) -> Plan:
+def plan(study: Study, folder: Path, cores: int = 2) -> Plan:
     """Return the plan of a study.
 
     Parameters
@@ -115,6 +125,8 @@ def plan(study: Study, folder: Path) -> Plan:
         The study.
     folder
         Its folder of results, which may be missing.
+    cores
+        How many jobs will work at the same time, which says how new points are shared out to them.
 
     Returns
     -------
@@ -123,7 +135,7 @@ def plan(study: Study, folder: Path) -> Plan:
     """
     asked = {point.id: point for point in study.solved}
     stated = {}
-    for path in _files(folder):
+    for path in ledger_files(folder):
         if entry := _entry(path, record_path(folder, path.stem), asked, study.keep_at_least):
             stated[path.stem] = entry
     owner: dict[str, str] = {}
@@ -138,11 +150,12 @@ def plan(study: Study, folder: Path) -> Plan:
         elif points:
             batches[name] = _to_solve(name, points, study.keep, *entry.state)
     new = [point for point in asked.values() if point.id not in owner]
-    last = max((int(path.stem.partition("p")[0]) for path in _files(folder)), default=0)
-    for number, unsolved in enumerate(split(new), last + 1):
+    sharing = Sharing(study.keep, study.batch_seconds, cores, pace.known())
+    last = max((int(path.stem.partition("p")[0]) for path in ledger_files(folder)), default=0)
+    for number, unsolved in enumerate(split(new, sharing), last + 1):
         batches[f"{number:04d}"] = _to_solve(f"{number:04d}", tuple(unsolved), study.keep)
     owner |= {point.id: batch.name for batch in batches.values() for point in batch.points}
-    return Plan(study.name, dict(sorted(batches.items())), _index(study, owner))
+    return Plan(study.name, study.keep, dict(sorted(batches.items())), _index(study, owner))
 
 
 def check_folders(folder: Path, home: Path) -> None:
@@ -185,8 +198,19 @@ def _to_solve(
     return Batch(name, points, text_hash(text), text, fault, damaged)
 
 
-def _files(folder: Path) -> list[Path]:
-    """Return the files of the ledger; backups and whatever else lies beside them are none."""
+def ledger_files(folder: Path) -> list[Path]:
+    """Return the files of the ledger; backups and whatever else lies beside them are none.
+
+    Parameters
+    ----------
+    folder
+        Folder of the study.
+
+    Returns
+    -------
+    list of Path
+        The files, by name.
+    """
     home = folder / "batches"
     entries = home.iterdir() if home.is_dir() else ()
     return sorted(path for path in entries if path.suffix == ".json" and NAME.fullmatch(path.stem))
@@ -242,6 +266,8 @@ def _index(study: Study, owner: dict[str, str]) -> str:
     A companion states the id of its run (`of`) and its role; a point that is companion of two runs is there twice.
     """
     head: dict[str, Any] = {"study": study.name, "keep": study.keep, "asked": study.asked}
+    if study.designs:
+        head["designs"] = study.designs
     sections: dict[str, list] = {
         "points": [
             ({"id": point.id, "batch": owner[point.id], "numerics": label}, point)
@@ -253,6 +279,4 @@ def _index(study: Study, owner: dict[str, str]) -> str:
             ({"id": point.id, "of": run.id, "role": role, "batch": owner[point.id]}, point)
             for run, role, point in study.companions
         ]
-    if study.designs:
-        head["designs"] = study.designs
     return rows.text(head, sections)

@@ -23,6 +23,13 @@ from subslide.study.plan import Batch, Plan, record_path
 LONG_AGO = 1
 """Time (s since 1970) of the stamp of what is whole."""
 
+UNFINISHED = ".unfinished"
+"""Folder beside records where batches of long runs keep what they have, see `solver.checkpoint`."""
+
+
+LEAST = len("whole\n")
+"""Size of the stamp of what is whole, or is not there, of no rank."""
+
 
 class Needs(NamedTuple):
     """What a job may need: memory (MB) and time (minutes)."""
@@ -94,7 +101,7 @@ def stage(plan: Plan, home: Path, tables: Mapping[str, Sequence[str]], figures: 
             _write(specs[name], batch.text)
     points_file = home / f"points-{checksums.text_hash(plan.points_text)}.json"
     _write(points_file, plan.points_text)
-    needs = {name: needs_of(batch) for name, batch in plan.batches.items()}
+    needs = {name: needs_of(batch, plan.keep) for name, batch in plan.batches.items()}
     about = {
         "study": plan.study,
         "specs": {name: str(path) for name, path in specs.items()},
@@ -130,14 +137,28 @@ def staged(path: Path) -> Staged:
     return Staged(about["study"], path.parent, path, specs, needs, points_file, tables, figures)
 
 
-def needs_of(batch: Batch) -> Needs:
-    """Return what the job of a batch may need: its runs are kept until all are solved; kernels may need compiling."""
-    memory = max(map(cost.memory, batch.points)) + sum(map(cost.disk, batch.points))
-    minutes = sum(map(cost.seconds, batch.points)) / 60
+def needs_of(batch: Batch, keep: str) -> Needs:
+    """Return what the job of a batch may need: its runs are kept until all are solved; kernels may need compiling.
+
+    Parameters
+    ----------
+    batch
+        The batch.
+    keep
+        What is kept of each run.
+
+    Returns
+    -------
+    Needs
+        Memory and time.
+    """
+    costs = [cost.of(point) for point in batch.points]
+    memory = max(one.memory for one in costs) + sum(one.kept(keep) for one in costs)
+    minutes = sum(cost.START[keep] + one.seconds for one in costs) / 60
     return Needs(max(1000, math.ceil(memory / 1e6)), math.ceil(10 + 2 * minutes))
 
 
-def stamp(home: Path, name: str, outputs: Iterable[Path], whole: bool) -> Path:
+def stamp(home: Path, name: str, outputs: Iterable[Path], whole: bool, rank: int = 0) -> Path:
     """Return the stamp of a job, set so that Snakemake starts the job if its outputs are there and not whole.
 
     Parameters
@@ -150,6 +171,8 @@ def stamp(home: Path, name: str, outputs: Iterable[Path], whole: bool) -> Path:
         What the job makes.
     whole
         Whether that is as it should be.
+    rank
+        Jobs of higher rank start first: of those that could, Snakemake starts the one whose inputs are larger.
 
     Returns
     -------
@@ -163,8 +186,12 @@ def stamp(home: Path, name: str, outputs: Iterable[Path], whole: bool) -> Path:
         path.write_text(f"{time.time_ns()}\n")
         if max(times) >= time.time():
             os.utime(path, (max(times) + 1,) * 2)
-    elif not path.exists() or path.stat().st_mtime != LONG_AGO:
-        path.write_text("whole\n")
+    elif (
+        not path.exists()
+        or path.stat().st_mtime != LONG_AGO
+        or (not times and path.stat().st_size != LEAST + rank)
+    ):
+        path.write_text("whole\n".ljust(LEAST + rank))
         os.utime(path, (LONG_AGO, LONG_AGO))
     return path
 
@@ -240,6 +267,25 @@ def tidy(folder: Path, now: Staged, outputs: Iterable[Path]) -> None:
                 path.unlink()
             elif path.stat().st_mtime > time.time():
                 os.utime(path)
+
+
+def forget(folder: Path, batches: Iterable[Batch]) -> None:
+    """Remove what was kept of long runs that no batch is to solve any more.
+
+    Parameters
+    ----------
+    folder
+        The study's folder of results.
+    batches
+        Batches that are to be solved.
+    """
+    wanted = set()
+    for batch in batches:
+        wanted |= {f"batch-{batch.name}", *(point.id for point in batch.points)}
+    for path in (folder / "records" / UNFINISHED).glob("*.npz"):
+        name = path.stem.rpartition("-")[0] if path.stem.startswith("batch-") else path.stem
+        if name not in wanted:
+            path.unlink(missing_ok=True)
 
 
 def _write(path: Path, text: str) -> None:

@@ -5,6 +5,7 @@ from subslide.keys import words
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
 from subslide.study import choice
+from subslide.study.remembering import Remembered
 
 MOST_PLANE_CELLS = 10_000
 PLANE = ("quarter", "plane")
@@ -20,6 +21,7 @@ LEAST_SINGLE, MOST_SINGLE, LOST_SINGLE = 1.18e-38, 3.4e38, 6e-8
 """Least and greatest number of float32, and what is lost beside 1. float64 holds whatever the keys allow."""
 
 
+@Remembered
 def check(point: Point) -> None:
     """Raise a ConfigError, of one line, if values of a point do not go with one another."""
     if point.dtype == "float32":

@@ -1,6 +1,7 @@
 """The keys that say something of a whole study and nothing of one run: its name, figures, bands, records, limits."""
 
-from collections.abc import Collection
+import functools
+from collections.abc import Callable, Collection
 from typing import Any
 
 from subslide import catalogue
@@ -69,12 +70,13 @@ def figures_of(chosen: Any, points: list[Point], designs: Collection[str] = ()) 
         If a figure needs runs that the study does not have.
     """
     known = catalogue.names("figures")
+    present = _present(points, designs)
     if chosen == "none":
         return ()
     if chosen == "auto":
-        return tuple(name for name in known if not lacking(name, points, designs))
+        return tuple(name for name in known if not _lacking(name, present))
     for name in chosen:
-        if lack := lacking(name, points, designs):
+        if lack := _lacking(name, present):
             raise ConfigError(f"figures: {name} needs runs with {lack}, which this study does not have")
     return tuple(name for name in known if name in chosen)
 
@@ -96,9 +98,20 @@ def lacking(name: str, points: list[Point], designs: Collection[str] = ()) -> st
     str
         What is lacking, as a configuration would state it.
     """
+    return _lacking(name, _present(points, designs))
+
+
+def _present(points: list[Point], designs: Collection[str]) -> Callable[[str], set]:
+    """Return a function that gives the values which a study has of a key, and looks at the points once for each."""
+    return functools.cache(
+        lambda key: set(designs) if key == "design" else {getattr(point, key) for point in points}
+    )
+
+
+def _lacking(name: str, present: Callable[[str], set]) -> str:
+    """Return the first 'key: value' that a figure needs and no point has, or ''."""
     for key, needed in catalogue.figure(name).needs.items():
-        present = set(designs) if key == "design" else {getattr(point, key) for point in points}
         for value in needed:
-            if value not in present:
+            if value not in present(key):
                 return f"{key}: {value}"
     return ""

@@ -18,6 +18,9 @@ table(results) -> iterable of dict, or pandas.DataFrame
     Return the rows of a finished study (`results.Results`) by COLUMNS; what a row leaves out stays empty. Raise a
     ConfigError if the study has none.
 
+    In its place, of tables with a row of every run: ``columns(results)``, which returns the entries of each column by
+    its name as arrays or lists.
+
 and, only where it needs them,
 
 WORDS : tuple of str

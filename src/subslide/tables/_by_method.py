@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 from subslide.keys import schema
 from subslide.naming import FINISHED
 from subslide.points import Point
+from subslide.records.energy import GAINED
 from subslide.study import cautions
-from subslide.tables._energy import GAINED
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -2,10 +2,12 @@
 
 import csv
 import io
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from numbers import Integral, Real
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from subslide import checksums, source_hash, tables
 from subslide.files import replacing, write_text
@@ -14,6 +16,9 @@ from subslide.study.config import Study
 
 if TYPE_CHECKING:
     from subslide.results import Results
+
+LINES = 2000
+"""Lines of a table that are made at once."""
 
 
 def lacking(name: str, results: "Results") -> str:
@@ -35,7 +40,7 @@ def lacking(name: str, results: "Results") -> str:
     kinds = {one["kind"] for one in results.designs}
     figures = whole_study.figures_of("auto", [run.point for run in runs], kinds)
     named = tuple((run.numerics, run.point) for run in runs)
-    study = Study(results.folder.name, figures, named, results.has_bands, designs=results.designs)
+    study = Study(results.folder.name, figures, named, results.has_bands, results.asked, results.designs)
     return tables.load(name).needs(study)
 
 
@@ -69,6 +74,11 @@ def write(name: str, results: "Results") -> list[Path]:
         folder.mkdir(exist_ok=True)
         with replacing(paths[0]) as temporary:
             module.write(temporary, results)
+    elif hasattr(module, "columns"):
+        columns = module.columns(results)
+        folder.mkdir(exist_ok=True)
+        with replacing(paths[0]) as temporary, open(temporary, "w", encoding="utf-8", newline="") as file:
+            file.writelines(csv_parts({key: columns[key] for key in module.COLUMNS}))
     else:
         rows = module.table(results)
         rows = rows.to_dict("records") if hasattr(rows, "to_dict") else list(rows)
@@ -117,23 +127,52 @@ def csv_text(columns: Iterable[str], rows: list[dict], float_format: str = "") -
     str
         Lines that end in a line feed, the names first.
     """
+    return "".join(csv_parts({name: [row.get(name) for row in rows] for name in columns}, float_format))
+
+
+def csv_parts(columns: Mapping[str, Sequence | np.ndarray], float_format: str = "") -> Iterator[str]:
+    """Give a table as CSV in parts of some lines.
+
+    Parameters
+    ----------
+    columns
+        Entries of each column by its name, equally many.
+    float_format
+        As in `csv_text`.
+
+    Yields
+    ------
+    str
+        Lines that end in a line feed, the names first.
+    """
     number = float_format.__mod__ if float_format else repr
-    entries = [_column([row.get(name) for row in rows], number) for name in columns]
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows(zip(*entries, strict=True))
-    return text.getvalue()
+    written = [_writer_of(entries, number) for entries in columns.values()]
+    count = max(map(len, columns.values()), default=0)
+    for first in range(-1, count, LINES):
+        text = io.StringIO()
+        writer = csv.writer(text, lineterminator="\n")
+        if first < 0:
+            writer.writerow(columns)
+        part = slice(max(0, first), first + LINES)
+        entries = [write(values[part]) for write, values in zip(written, columns.values(), strict=True)]
+        writer.writerows(zip(*entries, strict=True))
+        yield text.getvalue()
 
 
-def _column(entries: list, number: Callable[[float], str]) -> list[str]:
-    """Return the entries of a column as text: a whole number is one only where all of its column are."""
+def _writer_of(
+    entries: Sequence | np.ndarray, number: Callable[[float], str]
+) -> Callable[[Any], Iterable[str]]:
+    """Return a function from entries of a column to their texts: a whole number is one only where all are."""
+    if isinstance(entries, np.ndarray) and entries.dtype.kind == "f":
+        return lambda part: ("" if entry != entry else number(entry) for entry in part.tolist())
+    if isinstance(entries, np.ndarray) and entries.dtype.kind in "iu":
+        return lambda part: map(str, part.tolist())
     known = [entry for entry in entries if not _missing(entry)]
     if not all(isinstance(entry, Real) and not isinstance(entry, bool) for entry in known):
-        return ["" if _missing(entry) else str(entry) for entry in entries]
+        return lambda part: ("" if _missing(entry) else str(entry) for entry in part)
     if len(known) == len(entries) and all(isinstance(entry, Integral) for entry in known):
-        return [str(int(entry)) for entry in entries]
-    return ["" if _missing(entry) else number(float(entry)) for entry in entries]
+        return lambda part: (str(int(entry)) for entry in part)
+    return lambda part: ("" if _missing(entry) else number(float(entry)) for entry in part)
 
 
 def _missing(entry: object) -> bool:

@@ -19,7 +19,6 @@ from subslide.naming import FINISHED
 from subslide.points import RUN_KEYS, Point, options_text
 from subslide.study.config import Study
 from subslide.tables import _by_method
-from subslide.tables import _energy as energy
 from subslide.tables._prose import with_constants
 
 if TYPE_CHECKING:
@@ -77,8 +76,8 @@ COLUMNS = {
 WORDS = ("id", "status", "status_detail", "reference", "reason")
 NO_GROWTH = {"growth_rate": math.nan, "growth_rate_theory": math.nan, "why_growth": ""}
 MEASURED = (
-    *("energy", "water_volume", "sediment_volume", "nonhyperbolic_cells"),
-    *("time", "dx", "model", "box_half_width", "wave_free_until"),
+    *("energy_rise", "nonhyperbolic_cells_max", "nonhyperbolic_time"),
+    *("dx", "model", "wave_free_until"),
 )
 """Variables of records that the table follows from."""
 PROFILES = ("x", "h2", "snapshot_time")
@@ -190,19 +189,17 @@ def errors(point: Point, name: str, runs: "pd.DataFrame", references: list[str])
 
 def budget(point: Point, record: dict, outcome: "pd.Series") -> dict:
     """Return the entries of a row on hyperbolicity, energy and volumes; `why_budget` says which are empty and why."""
-    lost = np.nan_to_num(record["nonhyperbolic_cells"])
     sized = math.isfinite(record["dx"])
-    extent, dx = lost.max(), float(record["dx"]) / point.radius
+    extent, dx = float(record["nonhyperbolic_cells_max"]), float(record["dx"]) / point.radius
     plane = record["model"] in ("quarter", "plane")
     drifts = outcome[["sediment_volume_error", "water_volume_error"]].astype(float)
     rise, why = math.nan, "no energy_rise: energy passes the open ends"
     if point.boundary not in names.LEAVING or record["wave_free_until"] == math.inf:
-        series = (record[name] for name in ("energy", "water_volume", "sediment_volume"))
-        rise = energy.rise(point, record["model"], float(record["box_half_width"]), *series)
+        rise = float(record["energy_rise"])
         why = "" if math.isfinite(rise) else "no energy_rise: the start has no energy to release"
     return {
         "nonhyperbolic_length": math.sqrt(extent) * dx if plane else extent * dx,
-        "nonhyperbolic_time": float((lost > 0).mean()),
+        "nonhyperbolic_time": float(record["nonhyperbolic_time"]),
         "hyperbolic_margin": float(outcome["hyperbolic_margin_min"]),
         "energy_rise": rise,
         "volume_drift": drifts.max(),
@@ -215,7 +212,11 @@ def budget(point: Point, record: dict, outcome: "pd.Series") -> dict:
 def _growths(results: "Results") -> dict[str, dict]:
     """Return `growth` of each run of the scene `shear`, by id: those alone have their profiles read."""
     among = [run for run in results.runs_of_study if run.point.scene == "shear"]
-    return {run.id: growth(run.point, record) for run, record in results.each(*PROFILES, among=among)}
+    return {
+        run.id: growth(run.point, record)
+        for run, record in results.each(*PROFILES, among=among)
+        if "h2" in record
+    }
 
 
 def growth(point: Point, record: dict) -> dict:

@@ -12,12 +12,12 @@ import numpy as np
 from subslide.keys.schema import ConfigError
 from subslide.naming import FINISHED, FRONT_LABELS
 from subslide.points import Point
+from subslide.records import gauge
 from subslide.study import choice
 from subslide.study.config import COARSENING, Study
 from subslide.tables import _calibration as calibration
 from subslide.tables import _convergence as convergence
 from subslide.tables import _fitted_bands as fitted
-from subslide.tables import _gauge as gauge
 from subslide.tables._convergence import FORMAL_ORDER, Estimate
 
 if TYPE_CHECKING:
@@ -47,12 +47,13 @@ COLUMNS = {
 }
 WORDS = ("id", "quantity", "convergence")
 WAVES = ("max_abs_eta", "max_abs_eta_outside")
+PEAKS = tuple(f"{name}_peak" for name in (*WAVES, "eta_gauge"))
 ARRESTS = tuple(f"time_of_arrest_{label}" for label in FRONT_LABELS)
 """Times, which have bands on fitted grids alone."""
 
 ONCE = (
     *(f"L_f_{label}" for label in FRONT_LABELS),
-    *(f"{name}_peak" for name in (*WAVES, "eta_gauge")),
+    *PEAKS,
     *ARRESTS,
 )
 """Quantities of a run as a whole; the others are taken at the times of its snapshots."""
@@ -77,7 +78,7 @@ SUMMARY = ("limit", "band", "convergence")
 SUMMARIES = {name: ("band",) if name in ARRESTS else SUMMARY for name in ONCE}
 """Columns that the table of runs repeats, by quantity of a run as a whole."""
 
-MEASURED = ("time", "x_front", "L_f", "time_of_arrest", *WAVES, "eta_gauge", "snapshot_time", "status")
+MEASURED = ("time", "x_front", "L_f", "time_of_arrest", *WAVES, *PEAKS, "snapshot_time", "status")
 """Variables of records that are compared."""
 
 
@@ -175,10 +176,8 @@ def measure(point: Point, record: dict) -> Measured:
     values: dict[tuple[str, float | None], float] = {
         (f"L_f_{label}", None): float(record["L_f"][n]) for label, n in FRONT_LABELS.items()
     }
-    for name in WAVES:
-        values[f"{name}_peak", None] = float(np.nanmax(series[name], initial=-math.inf))
+    values.update(((name, None), float(record[name])) for name in PEAKS)
     values.update(((name, None), float(record["time_of_arrest"][n])) for n, name in enumerate(ARRESTS))
-    values["eta_gauge_peak", None] = gauge.peak(point, record["time"], record["eta_gauge"])[0]
     instants = [time for time in record["snapshot_time"].tolist() if time > 0 and time in point.profile_times]
     for name, entries in series.items():
         for instant in instants:

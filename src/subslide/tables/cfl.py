@@ -32,8 +32,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from subslide.points import Point
+from subslide.records import energy
 from subslide.study.config import Study
-from subslide.tables import _energy as energy
 from subslide.tables._prose import with_constants
 
 if TYPE_CHECKING:
@@ -207,7 +207,7 @@ def tried(run: "Run", judge: Judge) -> dict:
     measured = {
         "volume_drift": max(change(run.sediment_volume), change(run.water_volume)),
         "energy_rise": energy.rise(
-            run.point, run.model, run.box_half_width, run.energy, run.water_volume, run.sediment_volume
+            run.point, run.model, run.box_half_width, {"time": run.time, **run.series}
         ),
         "variation": max(
             variation(values) / max(judge.variations[name], 1e-3) - 1 for name, values in known(run).items()

@@ -3,19 +3,18 @@
 `COLUMNS_OF_RUN` states unit, meaning and value of each column in one place.
 """
 
-import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from subslide import naming
-from subslide.keys import names, schema, words
+from subslide.keys import schema, words
+from subslide.keys.values import RUN_KEYS, STANDS_FOR
 from subslide.naming import FRONT_LABELS
-from subslide.points import PAPER_BOX, RUN_KEYS, options_text
+from subslide.points import options_text
+from subslide.records import scalars
 from subslide.study.config import Study
-from subslide.tables import _energy as energy
-from subslide.tables import _gauge as gauge
 from subslide.tables import bands
 
 if TYPE_CHECKING:
@@ -26,29 +25,41 @@ READS = ("records", "bands")
 ABOUT = "One row a run; nothing here differs between two identical runs."
 
 
+Runs = Sequence["StudyRun"]
+Values = Mapping[str, np.ndarray]
+
+
 class Column(NamedTuple):
-    """A column: its unit, its meaning, and its value, a function of a run and of the variables of its record."""
+    """A column: unit, meaning, and entries, a function of the study's runs and of values of their records by name."""
 
     unit: str
     meaning: str
-    value: Callable[["StudyRun", dict[str, Any]], Any]
+    entries: Callable[[Runs, Values], Sequence[Any] | np.ndarray]
 
 
 def _asked(key: str) -> Column:
     """Return the column of a key of the configuration."""
     unit, meaning = words.unit(key), schema.properties()[key]["description"]
     if key == "scene_options":
-        return Column(unit, meaning, lambda run, record: options_text(run.point))
-    if key == "t_end":
-        return Column(
-            unit, meaning, lambda run, record: "rest" if run.point.t_end is None else run.point.t_end
-        )
-    return Column(unit, meaning, lambda run, record: getattr(run.point, key))
+        return Column(unit, meaning, lambda runs, values: [options_text(run.point) for run in runs])
+    word = STANDS_FOR.get(key)
+
+    def entries(runs: Runs, values: Values) -> list:
+        stated = (getattr(run.point, key) for run in runs)
+        return [word if value is None else value for value in stated]
+
+    return Column(unit, meaning, entries)
 
 
 def _recorded(name: str, unit: str, meaning: str) -> Column:
     """Return the column of a number or text of the record."""
-    return Column(unit, meaning, lambda run, record: record[name])
+    return Column(unit, meaning, lambda runs, values: values[name])
+
+
+def _made(name: str) -> Column:
+    """Return the column of a number that was made of a run's samples."""
+    about = scalars.NAMES[name]
+    return _recorded(name, "" if about.unit == "1" else about.unit, about.long_name)
 
 
 def _length(label: str, n: int) -> Column:
@@ -57,13 +68,15 @@ def _length(label: str, n: int) -> Column:
         f"length of the deposit along +x at the end of the run; front where h2 = {label[:-2]} % of H2; empty where no"
         " grains are"
     )
-    return Column("m", about, lambda run, record: record["L_f"][n])
+    return Column("m", about, lambda runs, values: values["L_f"][:, n])
 
 
 def _length_over_radius(label: str, n: int) -> Column:
     """Return the column of the same over R."""
     about = f"the same over the initial radius ({label[:-2]} % front)"
-    return Column("", about, lambda run, record: record["L_f"][n] / run.point.radius)
+    return Column(
+        "", about, lambda runs, values: values["L_f"][:, n] / np.array([run.point.radius for run in runs])
+    )
 
 
 def _arrest(label: str, n: int) -> Column:
@@ -72,24 +85,7 @@ def _arrest(label: str, n: int) -> Column:
         f"time since which that front ({label[:-2]} % of H2) has been within {100 * naming.ARREST:g} % of its L_f;"
         " empty where L_f is 0 or empty, or if grains move at the end"
     )
-    return Column("s", about, lambda run, record: record["time_of_arrest"][n])
-
-
-def _peak(name: str, meaning: str) -> Column:
-    """Return the column of the largest value of a series."""
-    return Column("m", meaning, lambda run, record: peak(record[name], record["time"])[0])
-
-
-def _peak_time(name: str) -> Column:
-    """Return the column of the time of the largest value of a series."""
-    return Column("s", "time of that peak", lambda run, record: peak(record[name], record["time"])[1])
-
-
-def _volume_error(name: str, meaning: str) -> Column:
-    """Return the column of how much a volume changes."""
-    return Column(
-        "", meaning, lambda run, record: relative_change(record[name][: samples_inside(run, record)])
-    )
+    return Column("s", about, lambda runs, values: values["time_of_arrest"][:, n])
 
 
 STATUS = "how the run ended: " + "; ".join(f"`{name}`: {text}" for name, text in naming.STATUSES.items())
@@ -98,32 +94,23 @@ REST = (
     " cells shrink; the times of arrest do"
 )
 MOVED = "whether any grain moved, `yes` or `no`; empty if the run failed"
-MARGIN = (
-    "smallest margin to complex wave speeds at any time, a discriminant: 1 at rest, below 0 where complex"
-)
-WATCHED = (
-    "largest displacement of the water surface, within 4.2553 R along x and y, over all time; where waves meet on the"
-    " axis it has no limit as cells shrink"
-)
-OUTSIDE = (
-    "the same beyond x = R, where waves are not focused; often the jump at the start, or the sharp head of a wave: it"
-    " converges slowly, `eta_gauge_peak` does not"
-)
-KEPT = "largest relative change of the volume of grains while nothing can have left the box"
-RISE = (
-    "largest rise of the energy after any moment, over what the start can release (its energy less that of flat layers"
-    f" at rest); of an open box until `wave_free_until`. Above {energy.GAINED:g} the answer is wrong in any status"
-)
 SCALED = "tan(delta)/a_2: with a_H and r, all that the scaled answer depends on"
-LOST = "most cells, at any one time, where the wave speeds are complex"
+WHOLE = "nonhyperbolic_cells_max"
+"""Whole number, which records have as a float like the others."""
+
+MADE = tuple(name for name in scalars.NAMES if not name.startswith(("nonhyperbolic", "hyperbolic")))
 
 COLUMNS_OF_RUN = {
-    "id": Column("", "name of the run; depends on its values alone", lambda run, record: run.id),
+    "id": Column(
+        "", "name of the run; depends on its values alone", lambda runs, values: [run.id for run in runs]
+    ),
     "numerics": Column(
-        "", "named set of numerics that the study asked for", lambda run, record: run.numerics
+        "",
+        "named set of numerics that the study asked for",
+        lambda runs, values: [run.numerics for run in runs],
     ),
     **{key: _asked(key) for key in RUN_KEYS if key != "snapshot_times"},
-    "m": Column("", SCALED, lambda run, record: run.point.friction_number),
+    "m": Column("", SCALED, lambda runs, values: [run.point.friction_number for run in runs]),
     "resolved_model": _recorded("model", "", "geometry that was solved; `model` is what was asked for"),
     "resolved_grid": _recorded("grid", "", "grid that was solved on, `uniform` or `fitted`"),
     "dx": _recorded("dx", "m", "cell size; empty on a fitted grid"),
@@ -131,7 +118,7 @@ COLUMNS_OF_RUN = {
     "status_detail": _recorded("status_detail", "", "what ended the run, in words"),
     "steps": _recorded("steps", "", "number of time steps"),
     "time_at_rest": _recorded("time_at_rest", "s", REST),
-    "moved": Column("", MOVED, lambda run, record: moved(record)),
+    "moved": Column("", MOVED, lambda runs, values: moved(values["status"], values["time_at_rest"])),
     "box_half_width": _recorded(
         "box_half_width", "m", "half-width of the box at the end, and of the paper's on an open sea"
     ),
@@ -139,27 +126,9 @@ COLUMNS_OF_RUN = {
     **{f"L_f_{label}": _length(label, n) for label, n in FRONT_LABELS.items()},
     **{f"L_f_{label}_over_R": _length_over_radius(label, n) for label, n in FRONT_LABELS.items()},
     **{f"time_of_arrest_{label}": _arrest(label, n) for label, n in FRONT_LABELS.items()},
-    "max_abs_eta_peak": _peak("max_abs_eta", WATCHED),
-    "max_abs_eta_peak_time": _peak_time("max_abs_eta"),
-    "max_abs_eta_outside_peak": _peak("max_abs_eta_outside", OUTSIDE),
-    "max_abs_eta_outside_peak_time": _peak_time("max_abs_eta_outside"),
-    "eta_gauge_peak": Column(
-        "m", gauge.MEANING, lambda run, record: gauge.peak(run.point, record["time"], record["eta_gauge"])[0]
-    ),
-    "eta_gauge_peak_time": Column(
-        "s",
-        "middle of that time",
-        lambda run, record: gauge.peak(run.point, record["time"], record["eta_gauge"])[1],
-    ),
-    "sediment_volume_error": _volume_error("sediment_volume", KEPT),
-    "water_volume_error": _volume_error("water_volume", "the same for water"),
-    "energy_rise": Column("", RISE, lambda run, record: energy_rise(run, record)),
-    "nonhyperbolic_cells_max": Column(
-        "", LOST, lambda run, record: int(np.nan_to_num(record["nonhyperbolic_cells"]).max())
-    ),
-    "hyperbolic_margin_min": Column(
-        "", MARGIN, lambda run, record: np.fmin.reduce(record["hyperbolic_margin"])
-    ),
+    **{name: _made(name) for name in MADE},
+    WHOLE: Column("", scalars.NAMES[WHOLE].long_name, lambda runs, values: values[WHOLE].astype(np.int64)),
+    "hyperbolic_margin_min": _made("hyperbolic_margin_min"),
 }
 COLUMNS = {
     **{name: (column.unit, column.meaning) for name, column in COLUMNS_OF_RUN.items()},
@@ -177,21 +146,8 @@ WORDS = (
     *(f"{name}_convergence" for name, parts in bands.SUMMARIES.items() if "convergence" in parts),
 )
 MEASURED = (
-    *(
-        "model",
-        "grid",
-        "dx",
-        "status",
-        "status_detail",
-        "steps",
-        "time_at_rest",
-        "box_half_width",
-        "L_f",
-        "time",
-    ),
-    *("time_of_arrest", "wave_free_until", "energy", "max_abs_eta", "max_abs_eta_outside", "eta_gauge"),
-    *("sediment_volume", "water_volume"),
-    *("nonhyperbolic_cells", "hyperbolic_margin"),
+    *("model", "grid", "dx", "status", "status_detail", "steps", "time_at_rest", "box_half_width"),
+    *("wave_free_until", "L_f", "time_of_arrest", *MADE, WHOLE, "hyperbolic_margin_min"),
 )
 """Variables of records that the table follows from."""
 
@@ -201,52 +157,24 @@ def needs(study: Study) -> str:
     return ""
 
 
-def table(results: "Results") -> Iterator[dict]:
-    """Give the rows, by column, in the order of the study; those of bands are as the table of bands has them."""
+def columns(results: "Results") -> dict[str, Sequence[Any] | np.ndarray]:
+    """Return the entries by column, in the order of the study; those of bands are as the table of bands has them."""
+    runs, values = results.runs_of_study, results.values(*MEASURED)
+    entries = {name: column.entries(runs, values) for name, column in COLUMNS_OF_RUN.items()}
     of_bands = bands.summaries(results)
-    for run, record in results.each(*MEASURED):
-        row = {name: column.value(run, record) for name, column in COLUMNS_OF_RUN.items()}
-        yield row | of_bands.get(run.id, {})
+    for name in COLUMNS:
+        if name not in entries:
+            entries[name] = [of_bands.get(run.id, {}).get(name) for run in runs]
+    return entries
 
 
-def samples_inside(run: "StudyRun", record: dict) -> int:
-    """Return the number of samples up to which nothing can have left the box.
+def moved(status: np.ndarray, rested: np.ndarray) -> list[str]:
+    """Return whether any grain of each run moved, `yes` or `no`; '' if it failed.
 
-    A step carries a change `order` cells at most. Nothing ever leaves a closed box, a sea or a fitted grid, and every
-    sample counts.
+    Parameters
+    ----------
+    status, rested
+        Status, and time since which no grain has moved, of each run.
     """
-    closed = run.point.boundary not in names.LEAVING or record["grid"] == "fitted"
-    if closed or record["wave_free_until"] == math.inf:
-        return len(record["time"])
-    radius = run.point.radius
-    cells = (min(PAPER_BOX * radius, float(record["box_half_width"])) - radius) / float(record["dx"])
-    return max(1, int(cells / run.point.order) - 1)
-
-
-def energy_rise(run: "StudyRun", record: dict) -> float:
-    """Return the largest rise of a run's energy over what can be released, while none passes an open edge."""
-    inside = ~(record["time"] > record["wave_free_until"])
-    series = (record[name][inside] for name in ("energy", "water_volume", "sediment_volume"))
-    return energy.rise(run.point, record["model"], float(record["box_half_width"]), *series)
-
-
-def moved(record: dict) -> str:
-    """Return whether any grain of a run moved, `yes` or `no`; '' if it failed."""
-    if record["status"] not in naming.FINISHED:
-        return ""
-    return "no" if record["time_at_rest"] == 0 else "yes"
-
-
-def peak(values: np.ndarray, time: np.ndarray) -> tuple[float, float]:
-    """Return the largest value of a series, and when it was first reached; NaN if there is none."""
-    if not np.isfinite(values).any():
-        return math.nan, math.nan
-    place = int(np.nanargmax(values))
-    return float(values[place]), float(time[place])
-
-
-def relative_change(values: np.ndarray) -> float:
-    """Return the largest relative change of a series since its start; NaN if there is none."""
-    with np.errstate(invalid="ignore", divide="ignore"):
-        changes = np.abs(values / values[0] - 1)
-    return float(np.nanmax(changes)) if np.isfinite(changes).any() else math.nan
+    ended = zip(status.tolist(), rested.tolist(), strict=True)
+    return ["" if how not in naming.FINISHED else "no" if time == 0 else "yes" for how, time in ended]

@@ -1,7 +1,5 @@
 """The wave at the gauge: a peak that has a limit as cells shrink."""
 
-import math
-
 import numpy as np
 
 from subslide.naming import GAUGE
@@ -32,12 +30,8 @@ def peak(point: Point, time: np.ndarray, eta: np.ndarray) -> tuple[float, float]
     tuple of float
         The size (m) of the mean and the middle (s) of its time; NaN without water, or of a shorter run.
     """
+    from subslide.records import reductions
+
     span = point.radius / point.wave_speed
-    if not np.isfinite(eta).all() or time[-1] - time[0] < span:
-        return math.nan, math.nan
-    volume = np.append(0.0, np.cumsum((eta[1:] + eta[:-1]) / 2 * np.diff(time)))
-    starts = time[time <= time[-1] - span]
-    until = np.interp(starts + span, time, volume)
-    mean = np.abs(until - volume[: len(starts)]) / span
-    place = int(mean.argmax())
-    return float(mean[place]), float(starts[place] + span / 2)
+    mean, start = reductions.running_mean_peak(eta, time, span)
+    return mean, start + span / 2

@@ -1,6 +1,7 @@
 """How much a run's energy rises, where it should only fall: the measure of what a scheme feeds into its answer."""
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -12,7 +13,11 @@ GAINED = 0.1
 
 
 def rise(
-    point: Point, model: str, half_width: float, energy: np.ndarray, water: np.ndarray, grains: np.ndarray
+    point: Point,
+    model: str,
+    half_width: float,
+    series: Mapping[str, np.ndarray],
+    until: float = math.inf,
 ) -> float:
     """Return the largest rise of the energy after any moment, over what the start can release: its own less at rest.
 
@@ -24,18 +29,23 @@ def rise(
         The one that was solved.
     half_width
         Of the box (m), which nothing leaves.
-    energy, water, grains
-        Series (samples) of energy (m5 s-2) and volumes (m3) as in a record; NaN where not known.
+    series
+        Series (samples) of `time` (s), `energy` (m5 s-2), `water_volume` and `sediment_volume` (m3) as in a record; NaN
+        where not known.
+    until
+        Time (s) from which energy passes an open edge, and no sample counts; NaN as if it never does.
 
     Returns
     -------
     float
         The rise over what can be released; NaN if the start has nothing to release.
     """
-    energy = energy[np.isfinite(energy)]
-    released = energy[0] - at_rest(point, model, half_width, water[0], grains[0])
-    largest = float((energy - np.minimum.accumulate(energy)).max())
-    return largest / released if released > 1e-12 * abs(energy[0]) else math.nan
+    from subslide.records import reductions
+
+    first, largest = reductions.rise(series["energy"], series["time"], until)
+    water, grains = (float(series[name][0]) for name in ("water_volume", "sediment_volume"))
+    released = first - at_rest(point, model, half_width, water, grains)
+    return largest / released if released > 1e-12 * abs(first) else math.nan
 
 
 def at_rest(point: Point, model: str, half_width: float, water: float, grains: float) -> float:
