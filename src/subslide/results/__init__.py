@@ -87,12 +87,25 @@ class Results(Tables):
         count = max(1, math.ceil(len(runs) / max(1, math.ceil(size / MOST_BYTES))))
         yield from (runs[first : first + count] for first in range(0, len(runs), count))
 
-    def opened(self, batch: str) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Return the variables and attributes of the record of a batch, verified: see `records.netcdf.read`."""
+    def opened(self, batch: str, *names: str) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Return variables of the record of a batch, as `records.netcdf.read` does, with its file verified.
+
+        Parameters
+        ----------
+        batch
+            Name of the batch.
+        names
+            Names of the variables.
+
+        Returns
+        -------
+        tuple of dict
+            Variables by name, and attributes.
+        """
         from subslide.records import netcdf
 
         verify(self._record_path(batch))
-        return netcdf.read(self._record_path(batch))
+        return netcdf.read(self._record_path(batch), names)
 
     def values(self, *names: str) -> dict[str, np.ndarray]:
         """Return numbers and texts of every run, of whole batches at once.
@@ -159,7 +172,7 @@ class Results(Tables):
 
         path = self._record_path(batch)
         verify(path)
-        netcdf.read(path)
+        netcdf.read(path, names=())
         return open_record(path)
 
     def _record_path(self, batch: str) -> Path:

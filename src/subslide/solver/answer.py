@@ -72,7 +72,7 @@ def series_in_si(model: Model, point: Point, sampled: np.ndarray, stood: bool) -
     """
     volume = model.copies * point.column_height * point.radius**model.dimensions
     si = Scales(point.radius, point.column_height, point.g, volume, model.copies)
-    column = sampled.T
+    column = np.ascontiguousarray(sampled.T)
     front = column[samples.FRONT : samples.FRONT + samples.FRONTS]
     # 0 where no cell beyond the axis reaches the threshold: there is the edge of a dam, or nothing
     at_axis = choice.of(point).geometry == "line" and column[samples.COLUMN["sediment_volume"]].max() > 0

@@ -172,7 +172,7 @@ def _write_parquet(path: Path, results: "Results") -> None:
         for part in results.parts():
             flat = {}
             for batch in dict.fromkeys(run.batch for run in part):
-                variables, attrs = results.opened(batch)
+                variables, attrs = results.opened(batch, "id", "time", *naming.SERIES)
                 ids = [run.id for run in part if run.batch == batch]
                 flat[batch] = flattened(variables, ids, attrs.get("keep") == "summary")
             for first in range(0, len(part), RUNS_IN_A_GROUP):
