@@ -167,7 +167,8 @@ def memory(dtypes):
         half = -(-point.cells // 2)
         held = build(point, half, DRY_DEPTH)
         cells = len(held.x) ** held.dimensions if model in ("plane", "quarter") else len(held.x)
-        total = sum(array.nbytes for array in arrays_in(vars(held)))
+        blocks = {id(block): block.nbytes for block in map(block_of, arrays_in(vars(held)))}
+        total = sum(blocks.values())
         rows += rows_of(
             "memory", "bytes_per_cell", total / cells, "B", model=model, dtype=dtype, cells=point.cells
         )
@@ -180,6 +181,13 @@ def arrays_in(value):
         return [value]
     parts = value.values() if isinstance(value, dict) else value if isinstance(value, tuple) else ()
     return [array for part in parts for array in arrays_in(part)]
+
+
+def block_of(array):
+    """Return the array that holds the memory of another, or itself."""
+    while isinstance(array.base, np.ndarray):
+        array = array.base
+    return array
 
 
 def threads(cells, rounds, order=2, many=2):

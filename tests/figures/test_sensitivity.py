@@ -15,7 +15,7 @@ from subslide.pages import sensitivity
 from subslide.results import StudyRun
 from subslide.results.listing import Companion
 from subslide.study.config import make_study
-from subslide.tables import effects, indices, indices_in_time, laws
+from subslide.tables import _emulated, effects, indices, indices_in_time, laws
 
 NAMES = [name for name in catalogue.names("figures") if name.startswith("sensitivity_")]
 BOX = {"a_H": [0.5, 10], "a_2": [0.3, 1.5], "r": [0, 0.8], "delta": [20, 40]}
@@ -120,6 +120,26 @@ def test_a_2_and_delta_act_through_one_number(whole):
     assert chosen(rows, design=1, output="L_f_1pc", kind="total", input="r")["estimate"] == pytest.approx(
         0, abs=1e-12
     )
+
+
+class Emulator:
+    """An emulator that gives the made-up answers exactly."""
+
+    quantities = ("L_f_1pc",)
+
+    def predict(self, a_H, r, m=None, a_2=None, delta=None, quantities=()):
+        m = np.tan(np.radians(delta)) / a_2 if m is None else m
+        return {"L_f_1pc": SimpleNamespace(value=1 + 0.9 / m)}
+
+
+def test_the_emulator_gives_the_same_indices(whole, monkeypatch):
+    monkeypatch.setattr(_emulated, "Emulator", SimpleNamespace(load=Emulator))
+    monkeypatch.setattr(_emulated, "SHIPPED", Path(__file__))
+    rows = pd.DataFrame(indices.table(whole))
+    of_length = rows[rows["output"] == "L_f_1pc"]
+    apart = (of_length["emulated"] - of_length["estimate"]).abs()
+    assert np.mean(apart <= 1.5 * of_length["sampling"] + 1e-9) > 0.9
+    assert rows[rows["output"] != "L_f_1pc"]["emulated"].isna().all()
 
 
 def test_indices_state_their_size_and_parts(whole):

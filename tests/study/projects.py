@@ -35,14 +35,13 @@ class Project:
     def configure(self, text):
         (self.folder / "small.yaml").write_text(text)
 
-    def snakemake(self, *arguments, check=True, **environment):
+    def snakemake(self, *arguments, check=True, configured=True, **environment):
         """Text that Snakemake prints."""
         command = [
             sys.executable,
             "-m",
             "snakemake",
-            "--configfile",
-            "small.yaml",
+            *(("--configfile", "small.yaml") if configured else ()),
             "--cores",
             "2",
             *arguments,

@@ -58,6 +58,14 @@ def test_cores_end_together(seconds, cores):
     assert len(costs) <= cores + sum(costs) / min(seconds, batches.LEAST) * 1.5
 
 
+def test_a_costly_point_has_a_batch_to_itself():
+    costly = Point(model="quarter", cells=1000)
+    points = [*(Point(model="quarter", cells=40, r=n / 1000) for n in range(200)), costly]
+    first, second = batches.split(points, batches.Sharing("summary"))
+    assert first == [costly]
+    assert len(second) == 200
+
+
 def test_a_slow_machine_has_smaller_batches():
     points = [Point(model="radial", cells=400, r=n / 1000) for n in range(700)]
     kind = pace.kind(points[0], "summary")

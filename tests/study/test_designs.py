@@ -414,6 +414,42 @@ def test_one_run_takes_no_design_and_no_more_than_one_value():
         config.make_point({"a_H": {"linspace": [0, 1, 3]}})
 
 
+WORDS = [
+    "points",
+    "over",
+    "scramblings",
+    "uniform",
+    "file",
+    "a_H",
+    "r",
+    "m",
+    "linspace",
+    "hll",
+    "x.csv",
+    "/",
+    "",
+]
+LEAVES = st.none() | st.booleans() | st.integers() | st.floats() | st.sampled_from(WORDS)
+ANYTHING = st.recursive(
+    LEAVES, lambda c: st.lists(c, max_size=3) | st.dictionaries(st.sampled_from(WORDS), c, max_size=3)
+)
+SHAPED = st.fixed_dictionaries(
+    {"points": st.integers(1, 4), "over": st.dictionaries(st.sampled_from(WORDS), ANYTHING, max_size=2)}
+)
+KINDS = st.sampled_from(list(words_of_designs.DESIGNS))
+
+
+@settings(deadline=None, max_examples=150)
+@given(ANYTHING | st.dictionaries(KINDS, ANYTHING | SHAPED, min_size=1, max_size=1))
+def test_whatever_stands_for_a_design_is_one_or_gives_one_line(value):
+    try:
+        assert study(design=value).runs
+    except ConfigError as error:
+        (line,) = str(error).split("\n")
+        if not re.match(r"design|m: ", line):
+            raise
+
+
 EXAMPLES = {
     "spaced": 125,
     "pairs": 4,

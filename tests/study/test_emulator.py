@@ -290,3 +290,28 @@ def test_emulate_refuses_what_is_no_goal(tmp_path, capsys):
     assert "--to: '2' is not allowed; allowed: a share" in capsys.readouterr().err
     assert main(["emulate", str(tmp_path), "--to", "2%", "--quantity", "L"]) == 2
     assert "--quantity: L is not allowed; allowed: L_f_1pc" in capsys.readouterr().err
+
+
+def test_the_packages_emulator_answers_as_the_solver_does():
+    """Nine columns, on grids that err by less than what is asked: L_f within 0.5 %, the peak within 4 %."""
+    emulator, shares = Emulator.load(), {"L_f_1pc": [], "x_front_1pc": [], named.PEAK: []}
+    for a_H, r, m in inner(24)[:9]:
+        column = Point(a_H=a_H, r=r, a_2=0.56, delta=math.degrees(math.atan(0.56 * m)), snapshot_times=())
+        fitted = column.with_values(grid="fitted", quantities="grains", cells=192)
+        waves = [column.with_values(cells=cells, t_end=5.0001 * column.time_scale) for cells in (400, 800)]
+        solved = [growing._values(point) for point in (fitted, *waves)]
+        known = emulator.predict(a_H, r, m, times=named.FRONT_NODES[8] / named.front_clock(r, m))
+        peak = [max(one[name] for name in named.WINDOWS) for one in solved[1:]]
+        shares["L_f_1pc"].append(solved[0]["L_f_1pc"] / known["L_f_1pc"].value[0] - 1)
+        shares["x_front_1pc"].append(solved[0]["x_front_1pc@8"] / known["x_front_1pc"].value[0, 0] - 1)
+        shares[named.PEAK].append((2 * peak[1] - peak[0]) / known[named.PEAK].value[0] - 1)
+    for name, most in {"L_f_1pc": 0.005, "x_front_1pc": 0.005, named.PEAK: 0.04}.items():
+        assert np.abs(shares[name]).max() < most, name
+
+
+def test_the_packages_emulator_is_small_and_knows_the_whole_range():
+    emulator = Emulator.load()
+    assert model.SHIPPED.stat().st_size < 300_000
+    assert set(emulator.quantities) == set(named.QUANTITIES)
+    for key, ends in coordinates.RANGE.items():
+        assert emulator.range[key] == pytest.approx(ends, rel=1e-6)

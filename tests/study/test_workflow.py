@@ -135,6 +135,24 @@ def test_changed_code_runs_everything_again(project):
     assert again == {"batch": 1, **TABLES, "report": 1}
 
 
+def test_a_process_elsewhere_reads_the_plan_and_never_the_configuration(project):
+    """As an executor starts it for one job: here the configuration is no YAML any more."""
+    project.configure(STUDY.replace("a_H: [1, 2]", "a_H: [1, 2, 3]"))
+    project.snakemake("--until", "points")
+    (plan,) = (project.folder / ".snakemake/subslide/small").glob("plan-*.json")
+    project.configure("study: [")
+    text = project.snakemake(
+        *("--mode", "remote", "--target-jobs", "batch:batch=0002", "--allowed-rules", "batch", "--force"),
+        *("--nolock", "--no-hooks", "--target-files-omit-workdir-adjustment", "--config"),
+        f"subslide_plan={plan.relative_to(project.folder)}",
+        configured=False,
+    )
+    assert "1 of 1 steps (100%) done" in text
+    assert (project.results / "batches/0002.json").exists()
+    project.configure(STUDY.replace("a_H: [1, 2]", "a_H: [1, 2, 3]"))
+    assert "batch" not in project.jobs("-n")
+
+
 def change(source, name):
     """Add a comment to a source file of the package."""
     with open(source / "subslide" / name, "a") as file:

@@ -161,10 +161,10 @@ def learn(measured: Iterable[Measured], about: Mapping[str, object]) -> Training
     together = {
         name: LeftOut(*map(np.concatenate, zip(*parts, strict=True))) for name, parts in left_out.items()
     }
-    ends = np.concatenate([one.inputs for one in known.values()])
-    bounds = {
-        key: _bounds(ends[:, n], *ends_of) for n, (key, ends_of) in enumerate(coordinates.RANGE.items())
-    }
+    bounds = {}
+    for n, (key, ends) in enumerate(coordinates.RANGE.items()):
+        lows, highs = zip(*(_bounds(one.inputs[:, n], *ends) for one in known.values()), strict=True)
+        bounds[key] = [max(lows), min(highs)]
     columns = {name: len(one.inputs) for name, one in known.items()}
     said = {**about, "range": bounds, "columns": columns, "leave_one_out": _told(together)}
     return Training(
@@ -228,8 +228,8 @@ def _together(
     return np.array(list(whole)), np.array(values), np.array(shared)
 
 
-def _bounds(values: np.ndarray, low: float, high: float) -> list[float]:
-    """Return between which values of a_H, r or m an emulator answers, from those that it knows, at most low and high.
+def _bounds(values: np.ndarray, low: float, high: float) -> tuple[float, float]:
+    """Return between which values of a_H, r or m a group answers, from those that it knows, at most low and high.
 
     Even points of a design leave a gap of about 1/n of its width at either end.
     """
@@ -238,7 +238,7 @@ def _bounds(values: np.ndarray, low: float, high: float) -> list[float]:
     gap = 2 / len(values) * np.ptp(spread)
     ends = spread.min() - gap, spread.max() + gap
     first, last = np.exp(ends) if logs else ends
-    return [float(max(low, first)), float(min(high, last))]
+    return float(max(low, first)), float(min(high, last))
 
 
 def _told(left_out: dict[str, LeftOut]) -> dict[str, dict[str, float]]:

@@ -103,14 +103,14 @@ def build(point: Point, box: int, dry_depth: float) -> Model:
     total = np.asarray(state.h1 + state.h2)
     flat = (total == total.flat[0]).all()
     shape = (len(grid.edges) - 1,) * (1 if axial else 2)
-    h1, h2 = (np.broadcast_to(np.asarray(values, real), shape) for values in state[:2])
+    h1, h2 = (_spread(values, shape, real) for values in state[:2])
     if flat:  # flat to the bit in the working precision too
         h1, h2 = scenes.level_off(h2, level)
     if axial:
         walls = (boundary.WALL if grid.geometry == "radius" else end, end)
         line = (0 * h1 if alone else h1, state.u1, h2, state.u2)
         return Axial(model, settings, line, grid, walls=walls, level=surface, watched=watched)
-    u1, v1, u2, v2 = (np.broadcast_to(np.asarray(values, real), shape) for values in state[2:])
+    u1, v1, u2, v2 = (_spread(values, shape, real) for values in state[2:])
     first = boundary.WALL if grid.geometry == "quarter" else end
     plane = (h1, u1, v1, h2, u2, v2)
     return Plane(model, settings, plane, grid, walls=(first, end, first, end), level=surface, watched=watched)
@@ -142,3 +142,9 @@ def build_fitted(point: Point, dry_depth: float) -> Fitted:
     settings = settings_of(point, 1 if alone else 2, smallest, dry_depth)
     line = (0 * h1 if alone else h1, 0.0, h2, 0.0)
     return Fitted(model, settings, line, mesh, motion, fan, level=real(1) if alone else level)
+
+
+def _spread(values: np.ndarray | float, shape: tuple[int, ...], real: type[float]) -> np.ndarray:
+    """Return values in a precision, one for each cell of a grid."""
+    values = np.asarray(values, real)
+    return values if values.shape == shape else np.broadcast_to(values, shape)

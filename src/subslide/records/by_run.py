@@ -10,6 +10,9 @@ from subslide.files import RecordError
 from subslide.records import netcdf, thinning
 from subslide.records.variables import Variable
 
+PLACES = ("id", "time", "snapshot_time", "h2", "grid", "cell_width")
+"""Variables that tell where a run is in its record, and what of that is padding."""
+
 
 class OfRun(dict[str, Any]):
     """Variables of a run by name; asking for one that its record lacks is a fault of the record."""
@@ -49,7 +52,7 @@ def read(path: Path, ids: Collection[str], names: Collection[str]) -> dict[str, 
     RecordError
         If the record is missing or damaged, or lacks a run.
     """
-    variables, attrs = netcdf.read(path)
+    variables, attrs = netcdf.read(path, {*names, *PLACES})
     places = dict(zip(ids, _places(path, variables, ids), strict=True))
     wanted = {name: variables[name] for name in names if name in variables}
     runs: dict[str, dict[str, Any]] = {
@@ -110,7 +113,7 @@ def values(path: Path, ids: Collection[str], names: Collection[str]) -> dict[str
     RecordError
         If the record is missing or damaged, or lacks a run or a variable.
     """
-    variables, _ = netcdf.read(path)
+    variables, _ = netcdf.read(path, {*names, "id"})
     places = _places(path, variables, ids)
     record = OfRun(path, variables)
     return {name: record[name].values[places] for name in names}

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -48,13 +49,26 @@ def write(path: Path | str, runs: list["Run"], keep: str = "all") -> None:
     attrs[CHECKSUM] = digest(variables, attrs)
     with replacing(path) as temporary:
         _store(temporary, variables, attrs, small=keep == "summary")
-        read(temporary)
+        read(temporary, names=())
 
 
-def read(path: Path | str) -> tuple[dict[str, Variable], dict]:
+def read(path: Path | str, names: Collection[str] | None = None) -> tuple[dict[str, Variable], dict]:
     """Return the variables by name, and the global attributes, of a record.
 
     This is the plain reader; `subslide.results` gives xarray datasets.
+
+    Parameters
+    ----------
+    path
+        The file.
+    names
+        Names of the variables that are wanted, all without it; what the record lacks is left out. The others are
+        verified too, one after the other, and do not stay in memory.
+
+    Returns
+    -------
+    tuple of dict
+        Variables and attributes.
 
     Raises
     ------
@@ -64,18 +78,25 @@ def read(path: Path | str) -> tuple[dict[str, Variable], dict]:
     path = Path(path)
     if not path.is_file():
         raise RecordError(f"{path}: there is no such record")
+    wanted: dict[str, Variable] = {}
     try:
         # by its bytes: the library takes a backslash in a path for a slash
         with netCDF4.Dataset("record", memory=path.read_bytes()) as data:
             data.set_auto_maskandscale(False)
             data.set_auto_chartostring(False)
-            variables = {name: _read(variable) for name, variable in data.variables.items()}
             attrs = {key: data.getncattr(key) for key in data.ncattrs()}
-    except (OSError, RuntimeError, AttributeError, IndexError, ValueError) as error:
+            total = _digest_of(attrs)
+            for name in sorted(data.variables):
+                variable = _read(data.variables[name])
+                _add(total, name, variable)
+                if names is None or name in names:
+                    wanted[name] = variable
+            variables = {name: wanted[name] for name in data.variables if name in wanted}
+    except (OSError, RuntimeError, AttributeError, IndexError, ValueError, TypeError) as error:
         raise RecordError(f"{path}: the file is damaged or not a NetCDF file ({error})") from None
     if CHECKSUM not in attrs:
         raise RecordError(f"{path}: not a record of subslide: it has no checksum")
-    if attrs[CHECKSUM] != digest(variables, attrs):
+    if attrs[CHECKSUM] != total.hexdigest():
         raise RecordError(f"{path}: the record is damaged: its content does not match its checksum")
     return variables, attrs
 
@@ -95,16 +116,26 @@ def digest(variables: dict[str, Variable], attrs: dict) -> str:
     str
         SHA-256 (hex).
     """
-    total = hashlib.sha256(_attrs_text({k: v for k, v in attrs.items() if k != CHECKSUM}))
+    total = _digest_of(attrs)
     for name in sorted(variables):
-        dims, values, about = variables[name]
-        total.update(json.dumps([name, list(dims), list(values.shape)]).encode() + _attrs_text(about))
-        if values.dtype.kind == "O":
-            total.update(json.dumps([str(value) for value in values.ravel()]).encode())
-        else:
-            total.update(values.dtype.str.encode())
-            total.update(np.ascontiguousarray(values).data)
+        _add(total, name, variables[name])
     return total.hexdigest()
+
+
+def _digest_of(attrs: dict) -> "hashlib._Hash":
+    """Return the hash of the attributes of a record but the checksum itself, to which variables are added."""
+    return hashlib.sha256(_attrs_text({key: value for key, value in attrs.items() if key != CHECKSUM}))
+
+
+def _add(total: "hashlib._Hash", name: str, variable: Variable) -> None:
+    """Put a variable into a hash."""
+    dims, values, about = variable
+    total.update(json.dumps([name, list(dims), list(values.shape)]).encode() + _attrs_text(about))
+    if values.dtype.kind == "O":
+        total.update(json.dumps([str(value) for value in values.ravel()]).encode())
+    else:
+        total.update(values.dtype.str.encode())
+        total.update(np.ascontiguousarray(values).data)
 
 
 def _read(variable: netCDF4.Variable) -> Variable:
@@ -144,7 +175,7 @@ def _store(path: Path, variables: dict[str, Variable], attrs: dict, small: bool)
                 dims,
                 fill_value=about.pop("_FillValue", None),
                 compression="zlib" if not text and values.nbytes >= COMPRESSED_FROM[small] else None,
-                complevel=4 if small else 1,
+                complevel=1,
             )
             target.setncatts(about)
             target.set_auto_chartostring(False)

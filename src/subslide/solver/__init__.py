@@ -24,9 +24,19 @@ DRY_DEPTH = 1e-6
 GROWTH = 1.5
 """A box whose edge the front reaches grows by GROWTH, up to LARGEST_BOX times the paper's; the sea has no such edge."""
 
+MOST_ROOM = 12
+"""Most of it, over the paper's box: with fewer, waves of deep water come to the end of two runs in five."""
+
+ROOM, REST = 1.15, 1.8
+"""Room that a round sea starts with, over the way of a low wave until the end, and when most columns are at rest: by
+REST/m in R / sqrt(g H2 (1-r))."""
+
 SPARE = 32
-"""Cells that a sea starts with beyond where its waves may come: steps look some vectors ahead. Seas have whole
-multiples of it, so that many runs share their layout."""
+"""Cells that a sea starts with beyond where its waves may come: steps look some vectors ahead."""
+
+ALIKE = 128
+"""Round seas have whole multiples of so many cells, so that runs share arrays and layouts; of a line without still
+water at both ends the last bits depend on its length."""
 
 ENDED = {
     k.AT_REST: "ok",
@@ -92,8 +102,13 @@ def first_box(point: Point) -> int:
     if not choice.at_sea(point) or choice.of(point).model == "one-layer":
         return box
     last = max(point.profile_times, default=0.0) if point.t_end is None else point.t_end
-    room = 1.1 * point.wave_reach(last) / point.scaled_dx + SPARE
-    return math.ceil(min(max(box, math.ceil(room / SPARE) * SPARE), LARGEST_BOX * box + SPARE))
+    if choice.of(point).geometry == "line":
+        room = 1.1 * point.wave_reach(last) / point.scaled_dx + SPARE
+        return math.ceil(min(max(box, room), LARGEST_BOX * box + SPARE))
+    if point.t_end is None and point.least_friction > 0:
+        last = max(last, REST / point.least_friction / math.sqrt(1 - point.r) * point.time_scale)
+    room = math.ceil((ROOM * point.wave_reach(last) / point.scaled_dx + SPARE) / ALIKE) * ALIKE
+    return max(box, min(room, MOST_ROOM * box))
 
 
 def attempt(

@@ -187,13 +187,12 @@ def _bins(points: list[Point], costs: list[float], target: float, sharing: Shari
         count + halves // 2, math.ceil(len(points) / MOST_POINTS[sharing.keep]), math.ceil(size / MOST_BYTES)
     )
     count = min(count, len(points))
-    most = math.ceil(len(points) / count) if not halves else MOST_POINTS[sharing.keep]
     filled = [(total / count / 2 if number >= count - halves else 0.0, 0, number) for number in range(count)]
     heapq.heapify(filled)
     members: list[list[int]] = [[] for _ in range(count)]
     for place in sorted(range(len(points)), key=lambda place: (-costs[place], place)):
         seconds, held, number = heapq.heappop(filled)
         members[number].append(place)
-        if held + 1 < most or len(filled) == 0:
+        if held + 1 < MOST_POINTS[sharing.keep] or len(filled) == 0:
             heapq.heappush(filled, (seconds + costs[place], held + 1, number))
     return [sorted(places) for places in members if places]

@@ -30,10 +30,13 @@ def unlike(points: Sequence[Point]) -> list[str]:
         Keys, in their order.
     """
     first = points[0]
+    chosen = frozenset().union(*(point.chosen for point in points)) - {
+        "scene_options"
+    }  # others are the defaults
     keys = [
         key
         for key in RUN_KEYS
-        if key != "scene_options" and any(getattr(point, key) != getattr(first, key) for point in points)
+        if key in chosen and any(getattr(point, key) != getattr(first, key) for point in points)
     ]
     options = {repr(point.scene_options) for point in points}
     if len(options) > 1:  # text, since 1 and 1.0 are two values of an option
@@ -91,7 +94,8 @@ class Reader:
         known = {key: value for key, value in self.shared.items() if key in KEYS}
         if check:
             known = {key: schema.checked(key, value, f"{SHARED}: {key}") for key, value in known.items()}
-        self.base = vars(from_dict(known))
+        chosen = from_dict(known).chosen
+        self.base = {key: value for key, value in chosen.items() if value != getattr(Point, key)}
 
     def point(self, row: Mapping[str, Any], others: frozenset[str] = frozenset(("id",))) -> Point:
         """Return the point of a row.
@@ -116,14 +120,8 @@ class Reader:
         """
         if self.check:
             return self._checked(row, others)
-        point = object.__new__(Point)
-        values = vars(point)
-        values.update(self.base)
-        for key, value in row.items():
-            if key in KEYS:
-                values[key] = held(key, value)
-        values["id"] = row["id"]  # where the property keeps it
-        return point
+        values = {key: held(key, value) for key, value in row.items() if key in KEYS}
+        return Point.of({**self.base, **values, "id": row["id"]})  # where the property keeps it
 
     def _checked(self, row: Any, others: frozenset[str]) -> Point:
         """Return the point of a row, checked."""
@@ -138,12 +136,8 @@ class Reader:
                 if key not in keys:
                     raise ConfigError(f"{words.show(key)}: there is no such key{words.closest(key, keys)}")
             raise ConfigError("a key stands in the row and among those that all share; allowed: one of them")
-        point = object.__new__(Point)
-        values = vars(point)
-        values.update(self.base)
-        for key, value in row.items():
-            if key in KEYS:
-                values[key] = held(key, schema.checked(key, value))
+        values = {key: held(key, schema.checked(key, v)) for key, v in row.items() if key in KEYS}
+        point = Point.of({**self.base, **values})
         checking.check_whole(point)
         if point.id != row["id"]:
             raise ConfigError(

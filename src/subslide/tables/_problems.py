@@ -46,6 +46,9 @@ def problems(among: Iterable[Point]) -> list[Problem]:
     has twice the cells of the next.
     """
     groups: dict[str, list[Point]] = {}
+    among = list(among)
+    if not any(choice.of(point).model in PLANES for point in among):
+        return []
     for point in among:
         if point.scene == "cylinder":
             groups.setdefault(_physics(point), []).append(point)

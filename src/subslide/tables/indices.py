@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from subslide.sensitivity import indices as sobol
-from subslide.tables import _answers, _saltelli
+from subslide.tables import _answers, _emulated, _saltelli
 from subslide.tables._saltelli import needs as needs
 
 if TYPE_CHECKING:
@@ -40,6 +40,10 @@ COLUMNS = {
     **_saltelli.COLUMNS,
     "output": ("", "answer, see above"),
     **OF_INDEX,
+    "emulated": (
+        "",
+        "the index by the emulator of the converged answer, from 16 x 512 points; empty where it knows none",
+    ),
     "converged": ("", f"`yes` if low and high are at most {2 * CONVERGED:g} apart, else `no`"),
     "scramblings": ("", "independent scramblings of the design"),
     "points": ("", "points of each, N"),
@@ -70,7 +74,9 @@ Outputs:
 def table(results: "Results") -> Iterator[dict]:
     """Give the rows, by column: a design after the other, all indices of an output together."""
     listed = _answers.once(results)
+    every = [run.point for run in results.runs_of_study]
     for design in _saltelli.designs(results):
+        emulated = _emulated.estimates(design, every, [answer.name for answer in listed])
         for answer in _saltelli.answers(design, listed):
             result = sobol.indices(answer.values, answer.half_widths, design.inputs)
             scramblings, blocks, points = design.runs.shape
@@ -80,6 +86,8 @@ def table(results: "Results") -> Iterator[dict]:
                 row = of_index(design.names, result, n)
                 converged = "yes" if row["high"] - row["low"] <= 2 * CONVERGED else "no"
                 first = {**design.first, "output": answer.name}
+                if answer.name in emulated:
+                    row["emulated"] = float(emulated[answer.name][n])
                 yield {**first, **row, "converged": converged, **size, "failed": failed}
 
 
