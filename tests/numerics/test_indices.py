@@ -79,7 +79,8 @@ def coverage(name, repetitions):
     random = np.random.default_rng(13)
     held = np.zeros(len(truth))
     for _ in range(repetitions):
-        answer = indices(function(blocks(inputs, random)))
+        u = blocks(inputs, random)
+        answer = indices(function(u), inputs=u)
         held += (answer.low <= truth) & (truth <= answer.high)
     return held / repetitions
 
@@ -116,6 +117,15 @@ def test_an_input_without_effect_has_index_zero_to_round_off():
     answer = indices(np.exp(u[..., 0]) * u[..., 2] + u[..., 3])
     of_second = [n for n, label in enumerate(labels(4)) if 1 in label.places and label.kind != "closed"]
     assert np.abs(answer.estimate[of_second]).max() < 1e-14
+
+
+def test_what_is_a_sum_has_no_second_order_index_but_round_off():
+    u = blocks(3, np.random.default_rng(8))
+    answer = indices(u[..., 0] ** 3 + 2 * u[..., 1] ** 2 - u[..., 2], inputs=u)
+    of_second = [n for n, label in enumerate(labels(3)) if label.kind == "second"]
+    assert np.abs(answer.estimate[of_second]).max() < 1e-6
+    assert answer.sampling[of_second].max() < 1e-6
+    assert answer.sampling.max() < 0.1
 
 
 def test_failed_runs_bound_the_indices():
@@ -157,7 +167,7 @@ def test_bands_hold_the_errors_of_grids():
     half_widths = 0.05 * exact.std() * (1 + u[..., 2])
     for name, error in errors_of_grids(u).items():
         answer = indices(exact + error * half_widths, half_widths, u)
-        moved = np.abs(answer.estimate - indices(exact).estimate)
+        moved = np.abs(answer.estimate - indices(exact, inputs=u).estimate)
         assert np.all(moved <= answer.grid + 0.1 * answer.sampling), name
     assert np.all(indices(exact, half_widths, u).grid < 0.1)
 

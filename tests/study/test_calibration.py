@@ -145,9 +145,10 @@ def test_the_command_prints_and_writes(files, tmp_path, capsys):
     data, emulator = files
     out = tmp_path / "fit.json"
     words = ["calibrate", data, "--threshold", "1%", "--a-2", "0.7", "--emulator", emulator, "--no-check"]
-    assert main([*words, "--r", "0.4", "-o", str(out)]) == 0
+    assert main([*words, "--r", "0.4", "-o", str(out), "--figure", str(tmp_path / "fit.png")]) == 0
     printed = capsys.readouterr().out
     assert "the model's own error is not counted" in printed
+    assert (tmp_path / "fit.png").read_bytes().startswith(b"\x89PNG")
     told = json.loads(out.read_text())
     assert set(told["parameters"]) == {"a_H", "delta"}
     assert told["threshold"] == 0.01

@@ -9,12 +9,15 @@ import numpy as np
 import pytest
 from learned import answer, columns, measured
 
+from subslide import checksums
 from subslide.__main__ import main
+from subslide.checksums import seal
 from subslide.emulator import Emulator, coordinates, fitting, group, growing, judging, model, training
 from subslide.emulator import measures as named
-from subslide.files import RecordError
+from subslide.files import RecordError, write_text
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
+from subslide.results import Results
 
 
 @pytest.fixture(scope="session")
@@ -223,3 +226,67 @@ def test_the_file_says_what_it_is(saved):
     assert told["format"] == model.FORMAT
     assert told["about"]["study"] == "formulas"
     assert told["groups"]["fronts"]["points"]["shape"] == [64, 3]
+
+
+@pytest.fixture(scope="module")
+def study_of(tmp_path_factory):
+    """Function that solves a study of a few columns on two coarse fitted grids, and returns its folder."""
+    from subslide.jobs import keep_batch
+    from subslide.solver import solve
+    from subslide.study import config, plan
+
+    def make(name, count, seed):
+        over = {"a_H": [0.6, 9], "r": [0.05, 0.75], "m": [0.3, 2.5]}
+        values = {
+            "study": name,
+            "grid": "fitted",
+            "quantities": "grains",
+            "cells": [24, 34],
+            "figures": "none",
+        }
+        design = {"latin_hypercube": {"points": count, "seed": seed, "over": over}}
+        study, folder = (
+            config.make_study({**values, "design": design}),
+            tmp_path_factory.mktemp("made") / name,
+        )
+        planned = plan.plan(study, folder)
+        for part in ("records", "batches"):
+            (folder / part).mkdir(parents=True)
+        for batch, of in planned.batches.items():
+            path = str(plan.record_path(folder, batch))
+            keep_batch(
+                [solve(p) for p in of.points], path, str(folder / "batches" / f"{batch}.json"), study.keep
+            )
+        write_text(folder / "points.json", planned.points_text)
+        seal(folder / "points.json")
+        return folder
+
+    return make
+
+
+def test_emulate_makes_a_sealed_file_that_no_held_out_column_changes(study_of, capsys):
+    folder, other = study_of("learnt", 24, 1), study_of("held", 8, 2)
+    assert main(["emulate", str(folder)]) == 0
+    alone = (folder / "emulator.json").read_bytes()
+    assert "L_f_1pc" in capsys.readouterr().out
+    checksums.verify(folder / "emulator.json")
+    assert main(["emulate", str(folder), "--held-out", str(other)]) == 0
+    assert (folder / "emulator.json").read_bytes() == alone
+    assert f"held out, {other}" in capsys.readouterr().out
+    inside = Emulator.load(folder / "emulator.json").predict(2, 0.4, 1.0, quantities=["L_f_1pc"])["L_f_1pc"]
+    assert 1.5 < inside.value[0] < 2.5
+
+    words = ["emulate", str(folder), "--to", "0.01%", "--most", "3", "--cores", "1"]
+    assert main(words) == 0
+    assert "3 columns added" in capsys.readouterr().out
+    assert main(["emulate", str(folder)]) == 0  # what was added is there again
+    assert "fronts: 27 columns" in capsys.readouterr().out
+    added = {run.point.similarity_key for run in growing.kept(folder)}
+    assert not added & {run.point.similarity_key for run in training.of_study(Results(other))}
+
+
+def test_emulate_refuses_what_is_no_goal(tmp_path, capsys):
+    assert main(["emulate", str(tmp_path), "--to", "2"]) == 2
+    assert "--to: '2' is not allowed; allowed: a share" in capsys.readouterr().err
+    assert main(["emulate", str(tmp_path), "--to", "2%", "--quantity", "L"]) == 2
+    assert "--quantity: L is not allowed; allowed: L_f_1pc" in capsys.readouterr().err

@@ -1,6 +1,9 @@
 """What a record keeps of a run: all, its series, or a summary that holds their course and every number."""
 
+import importlib
+
 import numpy as np
+import pandas as pd
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -9,6 +12,7 @@ from subslide import jobs
 from subslide.points import Point
 from subslide.records import course, netcdf, scalars, thinning
 from subslide.results import open_record, trimmed
+from subslide.study import config
 from subslide.study.config import make_point
 
 COLUMNS = [
@@ -18,6 +22,7 @@ COLUMNS = [
     make_point({"scene": "slab", "cells": 40}),
 ]
 
+FIGURES = ("fig04_profiles_r0", "fig06_fronts")
 NUMBERS = st.floats(-1e3, 1e3).filter(lambda value: value == 0 or abs(value) > 1e-20)
 """Single precision has no smaller ones to the last digit."""
 
@@ -120,3 +125,35 @@ def test_a_summary_takes_less_than_3_kB_a_point(tmp_path):
         netcdf.write(tmp_path / f"{count}.nc", runs[:count], "summary")
     few, many = ((tmp_path / f"{count}.nc").stat().st_size for count in (40, 80))
     assert (many - few) / 40 < 3000
+
+
+def test_tables_follow_from_each_form(tmp_path, write_tables, solve_study, monkeypatch):
+    monkeypatch.setattr("subslide.tables.series.MOST_RUNS_IN_CSV", 1)
+    tables = {}
+    for keep in ("all", "series", "summary"):
+        study = config.make_study({"study": "t", "a_H": [1, 3], "r": [0, 0.5], "cells": 60, "keep": keep})
+        solve_study(
+            study, tmp_path / keep, lambda points, keep=keep: [jobs.solved(p, 1, keep=keep) for p in points]
+        )
+        tables[keep] = write_tables(tmp_path / keep)
+        bare = tmp_path / keep / "tables/runs.csv"
+        assert bare.read_bytes() == (tmp_path / "all/tables/runs.csv").read_bytes()
+    pd.testing.assert_frame_equal(tables["all"].series, tables["series"].series)
+    short = tables["summary"].series
+    assert short["quantity"].nunique() == 6
+    for (name, quantity), rows in tables["all"].series.groupby(["id", "quantity"]):
+        kept = short[(short["id"] == name) & (short["quantity"] == quantity)]
+        if quantity.startswith(thinning.SUMMARY):
+            passed = np.interp(rows["time"], kept["time"], kept["value"])
+            assert np.abs(passed - rows["value"]).max() <= allowed(rows["value"].to_numpy())
+        else:
+            assert kept.empty
+    draws_with_a_word(tables["summary"], monkeypatch)
+
+
+def draws_with_a_word(results, monkeypatch):
+    """A figure of profiles says that there are none; one of series draws what is there, and reads no other rows."""
+    monkeypatch.setattr(type(results), "series", property(lambda self: pytest.fail("all series were read")))
+    profiles, fronts = (importlib.import_module(f"subslide.figures.{name}").draw(results) for name in FIGURES)
+    assert "did not keep" in profiles.get_suptitle()
+    assert len(fronts.axes[0].lines) > 1

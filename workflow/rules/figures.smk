@@ -46,8 +46,8 @@ for name in STAGED.figures:
             mem_mb=2000,
             runtime=30,
         params:
-            name=name,
-            results=RESULTS,
-            folder=RESULTS / "figures",
+            name=remembered(name, "figure", name),
+            results=subpath(output[0], ancestor=2),
+            folder=subpath(output[0], parent=True),
         shell:
-            "logged {log:q} subslide figure {params.name:q} --results {params.results:q} -o {params.folder:q}"
+            "logged {log:q} subslide figure {params.name[0]:q} --results {params.results:q} -o {params.folder:q}"

@@ -22,7 +22,7 @@ rule report:
         mem_mb=1000,
         runtime=30,
     params:
-        results=RESULTS,
-        captions=CAPTIONS,
+        results=subpath(output[0], parent=True),
+        captions=remembered(CAPTIONS, "page", "report"),
     shell:
-        "logged {log:q} subslide report {params.results:q} --captions {params.captions:q} -o {output[0]:q}"
+        "logged {log:q} subslide report {params.results:q} --captions {params.captions[0]:q} -o {output[0]:q}"

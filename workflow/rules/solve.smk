@@ -21,6 +21,14 @@ def stamp(name, outputs, whole, rank=0):
     return staging.stamp(HOME, name, outputs, whole(), rank) if workflow.is_main_process else HOME / name
 
 
+def remembered(path, part="record", name=""):
+    """Return a path and a hash of sources as Snakemake remembers them of a job, if no stamp tells when to do it again.
+
+    It remembers texts of params, and no paths.
+    """
+    return (str(path), source_hash(part, name)) if CARRIED else (path, None)
+
+
 RECORDS = [RESULTS / f"records/{batch}.nc" for batch in STAGED.specs]
 SEALED_RECORDS = sealed(*RECORDS)
 POINTS = sealed(RESULTS / "points.json")
@@ -42,9 +50,9 @@ rule points:
     log:
         RESULTS / "logs/points.log",
     params:
-        text=STAGED.points_file,
+        text=remembered(STAGED.points_file),
     shell:
-        "logged {log:q} subslide keep {params.text:q} -o {output[0]:q}"
+        "logged {log:q} subslide keep {params.text[0]:q} -o {output[0]:q}"
 
 
 rule batch:
@@ -65,7 +73,7 @@ rule batch:
         mem_mb=lambda wildcards, attempt: attempt * STAGED.needs[wildcards.batch].mem_mb,
         runtime=lambda wildcards, attempt: attempt * STAGED.needs[wildcards.batch].runtime,
     params:
-        spec=lambda wildcards: STAGED.specs[wildcards.batch],
+        spec=lambda wildcards: remembered(STAGED.specs[wildcards.batch]),
         counts=lambda wildcards: progress.counter_path(HOME, wildcards.batch),
     shell:
-        "logged {log:q} subslide batch {params.spec:q} --threads {threads} -o {output.record:q} --ledger {output.ledger:q} --counts {params.counts:q}"
+        "logged {log:q} subslide batch {params.spec[0]:q} --threads {threads} -o {output.record:q} --ledger {output.ledger:q} --counts {params.counts:q}"

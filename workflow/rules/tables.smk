@@ -51,7 +51,7 @@ for name in TABLES:
             mem_mb=2000,
             runtime=60,
         params:
-            name=name,
-            results=RESULTS,
+            name=remembered(name, "table", name),
+            results=subpath(output[0], ancestor=2),
         shell:
-            "logged {log:q} subslide table {params.name:q} {params.results:q}"
+            "logged {log:q} subslide table {params.name[0]:q} {params.results:q}"

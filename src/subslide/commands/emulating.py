@@ -112,20 +112,15 @@ def emulate(
     from subslide.study import outputs
 
     goal = None if to is None else growing.Goal(quantity, share(to, "--to"), most)
-    known = tuple(
-        dict.fromkeys(name.partition("@")[0] for _, names in measures.LEARNED.values() for name in names)
-    )
-    if goal and quantity not in (*known, measures.PEAK):
-        raise ConfigError(
-            f"--quantity: {words.show(quantity)} is not allowed; allowed: {', '.join(known)}, {measures.PEAK}"
-        )
+    if goal and quantity not in measures.QUANTITIES:
+        allowed = ", ".join(measures.QUANTITIES)
+        raise ConfigError(f"--quantity: {words.show(quantity)} is not allowed; allowed: {allowed}")
     folder = Path(results)
     study = Results(folder)
     runs = study.runs_of_study
     path = output or str(folder / "emulator.json")
-    outputs.check_sealed(
-        path, outputs.of_study(folder, but=[Path(path), checksums.beside(path)]), end=".json"
-    )
+    within = outputs.of_study(folder, but=[Path(path), checksums.beside(path)])
+    (outputs.check_sealed if output is None else outputs.check)(path, within, end=".json")
     jobs.set_threads(1)
     about = {"study": folder.resolve().name, "runs": len(runs), "sources": source_hash()}
     measured = [*training.of_study(study), *growing.kept(folder)]
@@ -136,7 +131,8 @@ def emulate(
         trained, added = growing.grow(measured, about, goal, processes, click.echo)
         growing.keep(folder, [*growing.kept(folder), *added])
     trained.emulator.save(path)
-    checksums.seal(path, sources=source_hash("table"))
+    if output is None:
+        checksums.seal(path, sources=source_hash())
     for group, count in trained.known.items():
         lost = (
             f", {trained.dropped[group]} left out since a run lacks a value" if trained.dropped[group] else ""
@@ -222,6 +218,7 @@ def predict(emulator: str | None, **options: str | None) -> None:
 @click.option("--check/--no-check", default=True, help="ask the solver at the best fit")
 @emulator_option
 @click.option("-o", "--output", metavar="FILE.json", help="file for the numbers, with the profiles")
+@click.option("--figure", metavar="FILE.png", help="file for a figure of the best fit and the profiles")
 def calibrate(
     data: str,
     threshold: str,
@@ -229,6 +226,7 @@ def calibrate(
     check: bool,
     emulator: str | None,
     output: str | None,
+    figure: str | None,
     **options: str | None,
 ) -> None:
     """Find the column, (a_H, r, delta), whose fronts are those of DATA.csv, and how far the data tell it.
@@ -251,8 +249,11 @@ def calibrate(
     }
     fixed = {key: values.pop(key) for key in observed.FREE if key in values}
     own_error = 0.0 if model_error.rstrip("%") in ("0", "0.0") else share(model_error, "--model-error")
+    inputs = [data, *([emulator] if emulator else [])]
     if output is not None:
-        outputs.check(output, [data, *([emulator] if emulator else [])], end=".json")
+        outputs.check(output, inputs, end=".json")
+    if figure is not None:
+        outputs.check(figure, inputs, "--figure", ".png")
     fronts = observed.read(data, share(threshold, "--threshold"))
     model = observed.Model(Emulator.load(emulator), fronts, Point(**values), fixed, own_error)
     observed.check_known(model)
@@ -260,5 +261,9 @@ def calibrate(
     answer = calibration.calibrate(model, check)
     if output is not None:
         write_text(output, json.dumps(calibration.told(answer, data), indent=1) + "\n")
+    if figure is not None:
+        from subslide.figures import _calibration
+
+        _calibration.save(answer, figure)
     for line in calibration.lines(answer):
         click.echo(line)

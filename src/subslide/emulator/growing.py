@@ -15,6 +15,7 @@ from subslide.emulator import measures as named
 from subslide.emulator.group import kernel
 from subslide.emulator.training import Measured, Training
 from subslide.files import RecordError, write_text
+from subslide.keys.schema import ConfigError
 from subslide.naming import FINISHED
 from subslide.points import Point, from_dict, to_dict
 
@@ -92,7 +93,15 @@ def reached(trained: Training, quantity: str) -> float:
     -------
     float
         The error.
+
+    Raises
+    ------
+    ConfigError
+        If no run has the quantity.
     """
+    if quantity not in trained.left_out:
+        known = ", ".join(trained.left_out)
+        raise ConfigError(f"--quantity: {quantity} is not in the study's runs; allowed: {known}")
     return float(np.quantile(np.abs(trained.left_out[quantity].error), 0.95))
 
 

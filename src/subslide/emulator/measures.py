@@ -10,7 +10,7 @@ from subslide.naming import FRONT_LABELS
 from subslide.points import Point
 from subslide.study import choice
 
-FRONT_NODES = (0.02, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.3, 1.6, 2.0, 2.5)
+FRONT_NODES = (0.02, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.15, 1.3, 1.6, 2.0)
 """Times t m sqrt(1-r), scaled, at which fronts are learned: friction stops all of them at about 1.8. Before the first a
 front leaves R; between them a monotone cubic goes."""
 
@@ -39,6 +39,9 @@ LEARNED: dict[str, tuple[str, tuple[str, ...]]] = {
     "surface": (WATER, tuple(f"{SURFACE}@{n}" for n in range(len(TIMES)))),
 }
 """Coordinates and quantities of each group: those of one have one kernel."""
+
+QUANTITIES = (*LENGTHS, *FRONTS, *ARRESTS, PEAK, SURFACE)
+"""What an emulator predicts."""
 
 MOST = {"surface": 512}
 """Columns that a group keeps at most: what max|eta| errs by comes of kinks, which more columns hardly mend."""

@@ -21,6 +21,11 @@ OF_95 = 1.96
 """Half-width of a 95 % band over the standard deviation."""
 
 
+BETWEEN = 0.0035
+"""Standard deviation, over a front's place, of a threshold that lies between two of those that are emulated: against
+profiles of 60 columns, on their way and at rest, the errors are 0.2 % in the median and 0.7 % at 95 %."""
+
+
 class Data(NamedTuple):
     """Fronts (n) that were measured.
 
@@ -159,7 +164,8 @@ class Model(NamedTuple):
             place = place + weight * np.where(rest, length.value[:, None], front.value)
             band = band + weight * np.where(rest, length.band[:, None], front.band)
         place, band = place * self.column.radius, band * self.column.radius
-        return place, np.sqrt(self.data.error**2 + (band / OF_95) ** 2 + (self.discrepancy * place) ** 2)
+        share = math.hypot(self.discrepancy, BETWEEN if len(shares) > 1 else 0.0)
+        return place, np.sqrt(self.data.error**2 + (band / OF_95) ** 2 + (share * place) ** 2)
 
     def log_likelihood(self, unit: np.ndarray) -> np.ndarray:
         """Return the logarithm (n) of the likelihood at places (n, free) of the unit cube."""

@@ -41,7 +41,7 @@ def of_run(results: "Results", name: str, variable: str) -> list[Profile]:
     variable
         Name of the profiles in its record, such as ``h2``.
     """
-    record = results.record(name)
+    record = results.profiles(name)
     wanted = next(run.point.profile_times for run in results.runs_of_study if run.id == name)
     times = np.atleast_1d(record["snapshot_time"].to_numpy())
     rest = float(record["time_at_rest"])

@@ -176,12 +176,7 @@ def curves(results: "Results", runs: pd.DataFrame, quantity: str) -> dict[str, t
     dict
         For the id of each run that has the series, its times (s) and values (unit of the quantity): arrays (steps,).
     """
-    series = results.series
-    series = series[(series["quantity"] == quantity) & series["id"].isin(runs["id"])]
-    return {
-        key: (rows["time"].to_numpy(), rows["value"].to_numpy())
-        for key, rows in series.groupby("id", sort=False)
-    }
+    return results.curves(quantity, runs["id"])
 
 
 def _shown(key: str, values: Iterable, count: int) -> list:

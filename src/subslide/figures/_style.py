@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from subslide.figures import _words
+from subslide.results import NotKeptError
 
 if TYPE_CHECKING:
     from subslide.results import Results
@@ -67,7 +68,7 @@ def styled(draw: Callable[["Results"], Figure]) -> Callable[["Results"], Figure]
         with sns.axes_style("ticks", {"axes.grid": True}), mpl.rc_context(RC):
             try:
                 return draw(results)
-            except NoRunsError as error:
+            except (NoRunsError, NotKeptError) as error:
                 figure = plt.figure(figsize=(WIDTH, 1.0))
                 figure.suptitle(f"{draw.__globals__['TITLE']}: no such run ({error})", wrap=True)
                 return figure

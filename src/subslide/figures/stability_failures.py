@@ -89,7 +89,7 @@ def checkerboard(ax: Axes, results: "Results") -> str | None:
     row = fast(results, ascending=True)
     if row is None:
         return None
-    at = min(2, results.record(row["id"]).sizes["snapshot"] - 1)
+    at = min(2, results.profiles(row["id"]).sizes["snapshot"] - 1)
     right = twin(results, row, cfl=Point.cfl)
     if right is not None:
         profile(ax, results, right, RIGHT, "eta", at)
@@ -152,14 +152,14 @@ def profile(
     at
         Which of them.
     """
-    data = results.record(row["id"]).isel(snapshot=at)
+    data = results.profiles(row["id"]).isel(snapshot=at)
     ax.plot(data["x"] / row["radius"], data[quantity] / _slices.column(row).column_height, **look)
     return float(data["snapshot_time"])
 
 
 def energy(ax: Axes, results: "Results", row: pd.Series, look: _style.Look) -> None:
     """Draw the energy of a run over time, over that of its start."""
-    data = results.record(row["id"])
+    data = results.profiles(row["id"])
     ax.semilogy(data["time"], data["energy"] / float(data["energy"][0]), **look)
     labels(ax, "$t$ (s)", "energy$/E_0$ (1)")
 

@@ -79,12 +79,12 @@ def _panel(
     wave = point.scene == "standing_wave"
     size = height * (dict(point.scene_options)["amplitude"] if wave else 1)
     rest = height if wave and quantity == "h2" else 0.0
-    x = results.record(fine["id"])["x"].to_numpy()
+    x = results.profiles(fine["id"])["x"].to_numpy()
     known = exact.load(point.scene).solution(point, x, time)[quantity]
     ax.plot(x / point.radius, (known - rest) / size, color="0.75", linewidth=2.8)
     for grid, cells in (("coarse", rows["cells"].min()), ("fine", rows["cells"].max())):
         for _, row in rows[rows["cells"] == cells].iterrows():
-            record = results.record(row["id"])
+            record = results.profiles(row["id"])
             solved = record[quantity].isel(snapshot=-1).to_numpy()
             look = LOOKS[row["order"], grid]
             ax.plot(record["x"] / point.radius, (solved - rest) / size, **look, linewidth=0.9)

@@ -107,9 +107,10 @@ def text(values: Mapping[str, Any], left_out: Collection[str]) -> str:
         if key in FLOATS and value is not None:
             parts[key] = f'"{key}":{float(value) + 0.0!r}'
         elif key == "scene_options":
-            parts[key] = _part(key, tuple(pair for pair in value if pair[0] not in left_out))
+            if value:
+                parts[key] = _part(key, tuple(pair for pair in value if pair[0] not in left_out))
         elif key in parts:
-            parts[key] = _word(key, value) if isinstance(value, str) else _part(key, value)
+            parts[key] = _word(key, value) if isinstance(value, str | int) else _part(key, value)
     return "{" + ",".join(filter(None, parts.values())) + "}"
 
 
@@ -138,8 +139,8 @@ def _part(key: str, value: Any) -> str:
     return f'"{key}":{compact(stated(key, value))}'
 
 
-_word = functools.cache(_part)
-"""The same for words, of which there are few."""
+_word = functools.lru_cache(4096, typed=True)(_part)
+"""The same for words, true and false, and whole numbers, of which a study has few."""
 
 _PARTS = {key: _part(key, default_of(key)) for key in sorted(RUN_KEYS)}
 """Texts of the defaults, in the order that they have in the text of a run."""

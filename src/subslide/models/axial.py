@@ -174,9 +174,7 @@ class Axial(Model):
         if any(added):
             first = round(self.grid.edges[0] / self.grid.dx)
             edges = np.arange(first - added[0], first + len(self.x) + added[1] + 1) * self.grid.dx
-            self._lay(
-                [np.pad(values, added, mode="edge") for values in state], self.grid._replace(edges=edges)
-            )
+            self._lay([_longer(values, *added) for values in state], self.grid._replace(edges=edges))
         self.watch = self._watch(self.watch.least_grains, self.watch.still1, self.watch.still2)
 
     def release(self) -> None:
@@ -209,3 +207,8 @@ class Axial(Model):
             "h2": h2,
             "eta": (self.cells.h1 + self.cells.h2)[inner].astype(np.float64) - float(self.level),
         }
+
+
+def _longer(values: np.ndarray, before: int, after: int) -> np.ndarray:
+    """Return values (n) with so many more at both ends, like the first and the last."""
+    return np.concatenate([np.full(before, values[0]), values, np.full(after, values[-1])])

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from subslide.records.reductions import compiled
+from subslide.solver.compiled import compiled
 
 
 @compiled

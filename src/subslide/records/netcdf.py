@@ -144,7 +144,7 @@ def _store(path: Path, variables: dict[str, Variable], attrs: dict, small: bool)
                 dims,
                 fill_value=about.pop("_FillValue", None),
                 compression="zlib" if not text and values.nbytes >= COMPRESSED_FROM[small] else None,
-                complevel=4 if small else 1,
+                complevel=1,
             )
             target.setncatts(about)
             target.set_auto_chartostring(False)

@@ -1,32 +1,10 @@
 """What a run's samples come to: loops over them, compiled once for all kinds of runs."""
 
-import hashlib
 import math
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from subslide.kernels.jit import driver
-
-
-def compiled(function: Callable) -> Any:
-    """Return a function compiled and kept: its name states its file, which the folder of kernels does not.
-
-    Parameters
-    ----------
-    function
-        A function of arrays and numbers that calls none of other files.
-
-    Returns
-    -------
-    callable
-        The same, compiled at its first call in a process, or loaded.
-    """
-    sources = hashlib.sha256(Path(function.__code__.co_filename).read_bytes()).hexdigest()[:12]
-    function.__qualname__ = f"{function.__name__}_{sources}"
-    return driver(function)
+from subslide.solver.compiled import compiled
 
 
 @compiled

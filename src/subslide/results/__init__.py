@@ -1,6 +1,5 @@
 """A finished study for those who read it: its runs, their records run by run, and its tables."""
 
-import csv
 import functools
 import math
 from collections.abc import Iterable, Iterator
@@ -9,14 +8,11 @@ from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import numpy as np
 
-from subslide import catalogue
-from subslide.keys.schema import ConfigError
-from subslide.results import reading
-from subslide.results.listing import Companion, Listing, StudyRun, listed, verify
-from subslide.results.opened import open_record, positions, trimmed  # noqa: F401
+from subslide.results.listing import Companion, StudyRun, verify
+from subslide.results.of_tables import Tables
+from subslide.results.opened import NotKeptError, open_record, positions, trimmed  # noqa: F401
 
 if TYPE_CHECKING:
-    import pandas as pd
     import xarray as xr
 
 MOST_BYTES = 250e6
@@ -25,7 +21,7 @@ MOST_BYTES = 250e6
 Solved = TypeVar("Solved", bound=StudyRun | Companion)
 
 
-class Results:
+class Results(Tables):
     """Read-only view of a study's folder.
 
     Parameters
@@ -33,40 +29,6 @@ class Results:
     folder
         Folder of a study that was run, such as `results/paper`.
     """
-
-    def __init__(self, folder: Path | str):
-        """Keep the folder; nothing is read before it is asked for."""
-        self.folder = Path(folder)
-
-    @functools.cached_property
-    def runs_of_study(self) -> tuple[StudyRun, ...]:
-        """Return the runs in the order of the tables; ConfigError if the folder is none of a study."""
-        return self._listed.runs
-
-    @functools.cached_property
-    def companions(self) -> tuple[Companion, ...]:
-        """Return the coarser runs that those on uniform grids have in a study with bands; none without."""
-        return self._listed.companions
-
-    @property
-    def has_bands(self) -> bool:
-        """Return whether the study was made with `bands: true`."""
-        return self._listed.has_bands
-
-    @property
-    def asked(self) -> dict[str, Any]:
-        """Return the study's configuration by key, as its file states it; empty for one of the version before."""
-        return self._listed.asked
-
-    @property
-    def designs(self) -> tuple[dict[str, Any], ...]:
-        """Return what points.json says of each Saltelli design: see `study.config.Study.designs`."""
-        return self._listed.designs
-
-    @functools.cached_property
-    def _listed(self) -> Listing:
-        """Return what points.json states."""
-        return listed(self.folder)
 
     @overload
     def each(self, *names: str, among: None = None) -> Iterator[tuple[StudyRun, dict[str, Any]]]: ...
@@ -102,18 +64,35 @@ class Results:
         """
         from subslide.records import by_run
 
-        runs = list(self.runs_of_study if among is None else among)
-        paths = {run.batch: self._record_path(run.batch) for run in runs}
-        size = sum(path.stat().st_size for path in paths.values() if path.exists())
-        count = max(1, math.ceil(len(runs) / max(1, math.ceil(size / MOST_BYTES))))
-        for first in range(0, len(runs), count):
-            part = runs[first : first + count]
+        for part in self.parts(among):
             held: dict[str, dict[str, Any]] = {}
             for batch in dict.fromkeys(run.batch for run in part):
                 ids = {run.id for run in part if run.batch == batch}
-                verify(paths[batch])
-                held |= by_run.read(paths[batch], ids, names)
+                path = self._record_path(batch)
+                verify(path)
+                held |= by_run.read(path, ids, names)
             yield from ((run, held[run.id]) for run in part)
+
+    @overload
+    def parts(self, among: None = None) -> Iterator[list[StudyRun]]: ...
+
+    @overload
+    def parts(self, among: Iterable[Solved] | None) -> Iterator[list[Solved]]: ...
+
+    def parts(self, among: Iterable[StudyRun | Companion] | None = None) -> Iterator[list]:
+        """Give runs in parts, in their order, so that the records of each take no more than MOST_BYTES."""
+        runs = list(self.runs_of_study if among is None else among)
+        paths = {self._record_path(run.batch) for run in runs}
+        size = sum(path.stat().st_size for path in paths if path.exists())
+        count = max(1, math.ceil(len(runs) / max(1, math.ceil(size / MOST_BYTES))))
+        yield from (runs[first : first + count] for first in range(0, len(runs), count))
+
+    def opened(self, batch: str) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Return the variables and attributes of the record of a batch, verified: see `records.netcdf.read`."""
+        from subslide.records import netcdf
+
+        verify(self._record_path(batch))
+        return netcdf.read(self._record_path(batch))
 
     def values(self, *names: str) -> dict[str, np.ndarray]:
         """Return numbers and texts of every run, of whole batches at once.
@@ -166,6 +145,13 @@ class Results:
                 return trimmed(self.batch(run.batch), name).load()
         raise KeyError(f"{name}: there is no such run in {self.folder}")
 
+    def profiles(self, name: str) -> "xr.Dataset":
+        """Return `record` of a run; NotKeptError if its study did not keep profiles."""
+        record = self.record(name)
+        if "h2" not in record:
+            raise NotKeptError(f"profiles, which the study did not keep: keep: {record.attrs['keep']}")
+        return record
+
     @functools.lru_cache(maxsize=64)  # noqa: B019 - a Results lives as long as its process
     def batch(self, batch: str) -> "xr.Dataset":
         """Return the record of a batch, verified once and then read lazily (dask)."""
@@ -179,91 +165,3 @@ class Results:
     def _record_path(self, batch: str) -> Path:
         """Return the path of the record of a batch."""
         return self.folder / "records" / f"{batch}.nc"
-
-    def table(self, name: str) -> "pd.DataFrame":
-        """Return a table of the study by its name, as it was last written.
-
-        Raises
-        ------
-        ConfigError
-            If the study's folder has no such table.
-        RecordError
-            If the table is not as it was written, or not that of this study.
-        """
-        return reading.table(self._table_path(name), name, self.runs_of_study)
-
-    def lines(self, name: str) -> list[dict[str, str]]:
-        """Return the rows of a table that is CSV as text by column; faults are those of `table`."""
-        path = self._table_path(name)
-        reading.table(path, name, self.runs_of_study)
-        with open(path, newline="", encoding="utf-8") as file:
-            return list(csv.DictReader(file))
-
-    def _table_path(self, name: str) -> Path:
-        """Return the path of a table that is there."""
-        paths = [self.folder / "tables" / f"{name}.{kind}" for kind in ("parquet", "csv")]
-        for path in paths:
-            if path.is_file():
-                verify(path)
-                return path
-        raise ConfigError(
-            f"{paths[-1]}: there is no such file; allowed: the folder of a study with this table"
-        )
-
-    @functools.cached_property
-    def runs(self) -> "pd.DataFrame":
-        """Return the table of runs, one row a run."""
-        return self.table("runs")
-
-    @functools.cached_property
-    def series(self) -> "pd.DataFrame":
-        """Return the tidy table of series: id, time (s), quantity, value."""
-        return self.table("series")
-
-    @functools.cached_property
-    def bands(self) -> "pd.DataFrame":
-        """Return the tidy table of bands, a row for each run, quantity and time; empty for a study without bands."""
-        return self.table("bands") if self.has_bands else _empty("bands")
-
-    @functools.cached_property
-    def errors(self) -> "pd.DataFrame":
-        """Return the table of errors against exact solutions, of a study that has any."""
-        return self.table("errors")
-
-    @functools.cached_property
-    def work_precision(self) -> "pd.DataFrame":
-        """Return the table of errors and seconds; empty for a study without a sweep of numerics."""
-        try:
-            return self.table("work_precision")
-        except ConfigError:
-            return _empty("work_precision")
-
-    @functools.cached_property
-    def atlas(self) -> "pd.DataFrame":
-        """Return the stability atlas, one row a run, of a study that draws it."""
-        return self.table("atlas")
-
-    @functools.cached_property
-    def cfl(self) -> "pd.DataFrame":
-        """Return the Courant numbers that were tried, of a study that draws the atlas."""
-        return self.table("cfl")
-
-    def select(self, **values: Any) -> "pd.DataFrame":
-        """Return the rows of the table of runs whose columns equal the given values; numbers to nine digits."""
-        import pandas as pd
-
-        chosen = np.ones(len(self.runs), bool)
-        for column, value in values.items():
-            entries = self.runs[column]
-            number = pd.api.types.is_numeric_dtype(entries) and not isinstance(value, str)
-            chosen &= (
-                np.isclose(entries, value, rtol=1e-9, atol=1e-12) if number else (entries == value).to_numpy()
-            )
-        return self.runs[chosen]
-
-
-def _empty(name: str) -> "pd.DataFrame":
-    """Return a table without rows, by the columns of its module."""
-    import pandas as pd
-
-    return pd.DataFrame(columns=catalogue.layout(name).columns)

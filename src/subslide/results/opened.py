@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+class NotKeptError(RecordError):
+    """A record that is as it should be, but was made without the profiles that are asked for."""
+
+
 def open_record(path: Path | str) -> "xr.Dataset":
     """Return the dataset of a record, lazy (dask), with times as plain seconds; ConfigError if its path cannot be."""
     import xarray as xr

@@ -64,14 +64,44 @@ def table(path: Path, name: str, runs: Sequence[StudyRun]) -> "pd.DataFrame":
                 if file.read() != b"\n":
                     raise ValueError("its last line is not whole")
             rows = pd.read_csv(path, keep_default_na=False, na_values=[""], low_memory=False)
-        _check(rows, name, runs)
+        _check(rows, name, runs, even=path.suffix == ".csv")
     except (ValueError, TypeError, NotImplementedError, OSError) as error:
         what = words.cut(words.one_line(str(error)), 120)
         raise RecordError(f"{path} is not the table {name} of this study ({what}); {AGAIN}") from None
     return rows
 
 
-def _check(rows: "pd.DataFrame", name: str, runs: Sequence[StudyRun]) -> None:
+def rows_of(path: Path, **wanted: list[str]) -> "pd.DataFrame":
+    """Return the rows of a Parquet file whose columns have some of the values that are wanted; no others are held.
+
+    Parameters
+    ----------
+    path
+        The file.
+    wanted
+        Texts by column.
+
+    Returns
+    -------
+    pandas.DataFrame
+        The rows.
+
+    Raises
+    ------
+    RecordError
+        If the file is no such table: one line.
+    """
+    import pandas as pd
+
+    filters = [(column, "in", values) for column, values in wanted.items()]
+    try:
+        return pd.read_parquet(path, filters=filters)
+    except (ValueError, TypeError, KeyError, NotImplementedError, OSError) as error:
+        what = words.cut(words.one_line(str(error)), 120)
+        raise RecordError(f"{path} is not the table {path.stem} of this study ({what}); {AGAIN}") from None
+
+
+def _check(rows: "pd.DataFrame", name: str, runs: Sequence[StudyRun], even: bool) -> None:
     """Raise a ValueError unless rows are those of a table of the study, as far as its module and the runs tell."""
     from pandas.api.types import is_numeric_dtype
 
@@ -89,7 +119,7 @@ def _check(rows: "pd.DataFrame", name: str, runs: Sequence[StudyRun]) -> None:
     if "id" in rows:
         _check_ids(rows["id"], name, [run.id for run in runs])
     if name == "series":
-        _check_samples(rows)
+        _check_samples(rows, even)
     if name == "runs":
         _check_runs(rows, runs, numbers)
 
@@ -103,8 +133,8 @@ def _check_ids(ids: "pd.Series", name: str, known: list[str]) -> None:
         raise ValueError("id: the rows are not those of each run of the study in order")
 
 
-def _check_samples(rows: "pd.DataFrame") -> None:
-    """Raise a ValueError unless all quantities of a run have equally many samples, at times that go on."""
+def _check_samples(rows: "pd.DataFrame", even: bool) -> None:
+    """Raise a ValueError unless quantities have their samples together, at times that go on, and equally many if even."""
     changes = (rows["id"] != rows["id"].shift()) | (rows["quantity"] != rows["quantity"].shift())
     time = rows["time"].to_numpy()
     if not np.all((time >= 0) & (time < MOST) & (changes | (time >= np.roll(time, 1)))):
@@ -112,7 +142,7 @@ def _check_samples(rows: "pd.DataFrame") -> None:
     starts = np.flatnonzero(changes)
     parts = rows[["id", "quantity"]].iloc[starts].assign(count=np.diff(starts, append=len(rows)))
     uneven = parts.groupby("id")["count"].nunique() > 1
-    if uneven.any() or parts.duplicated(["id", "quantity"]).any():
+    if (even and uneven.any()) or parts.duplicated(["id", "quantity"]).any():
         raise ValueError("its quantities have not equally many samples, those of each together")
 
 

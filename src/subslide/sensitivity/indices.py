@@ -9,10 +9,11 @@ the output drops out and a small effect has a small error:
     V_i     - (BA_i - B) (AB_i - A) / 2
     V_Ti    ((AB_i - A)^2 + (BA_i - B)^2) / 4
     V_ij    ((BA_i - B) (AB_j - A) + (BA_j - B) (AB_i - A)) / 2
-    V_{ij}  - (BA_i - BA_j) (AB_i - AB_j) / 2, which is V_i + V_j + V_ij
+    V_{ij}  V_i + V_j + V_ij
 
 The first three are those of Azzini, Mara and Rosati (Environ. Model. Softw. 144, 105167, 2021), Jansen's among them;
-the others follow likewise. An index is the ratio of two means over all scramblings. Negative estimates are kept.
+the fourth follows likewise, and is taken of the output less a sum of functions of one input each, which has no part in
+it but its scatter. An index is the ratio of two means over all scramblings. Negative estimates are kept.
 """
 
 import itertools
@@ -20,6 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from subslide.sensitivity.additive import Additive, ranks
 from subslide.sensitivity.failures import ranges
 from subslide.sensitivity.jackknife import ratios
 
@@ -111,42 +113,58 @@ def indices(
     half_widths
         Half-widths of their grid error, of the same shape; without them none.
     inputs
-        Inputs of the runs, shape (scramblings, 2 + 2 inputs, points, inputs), for trends along each.
+        Inputs of the runs, shape (scramblings, 2 + 2 inputs, points, inputs): for trends along each, and for second
+        orders without the scatter of first ones.
 
     Returns
     -------
     Indices
         Arrays of shape (indices, ...), in the order of `labels`.
     """
-    filled, low, high = ranges(outputs, (0, 1, 2))
-    estimate, sampling = _ratios(_moments((filled, filled))[0])
-    least, most = (estimate, estimate) if low is high else _bounds(_moments((low, high)))
+    first = outputs[:1, :1, :1]
+    filled, low, high = ranges(outputs - np.where(np.isnan(first), 0.0, first), (0, 1, 2))
+    additive = Additive(inputs)
+    sums = additive.of(filled)
+    estimate, sampling = _ratios(_moments((filled, filled), sums)[0])
+    least, most = (estimate, estimate) if low is high else _bounds(_moments((low, high), sums))
     grid = np.full_like(estimate, np.nan)
     if half_widths is not None:
-        grid = _of_grid(filled, np.nan_to_num(half_widths), inputs, estimate)
+        trends = [] if inputs is None else [ranks(column) for column in np.moveaxis(inputs, -1, 0)]
+        grid = _of_grid(filled, np.nan_to_num(half_widths), trends, additive, estimate)
     return Indices(estimate, sampling, grid, least, most)
 
 
-def _moments(outputs: Interval) -> Interval:
+def _moments(outputs: Interval, sums: np.ndarray) -> Interval:
     """Return V and then the moments in the order of `labels`, of each scrambling: (1 + indices, scramblings, ...)."""
     k = outputs[0].shape[1] // 2 - 1
-
-    def block(place: int) -> Interval:
-        return outputs[0][:, place], outputs[1][:, place]
-
-    a, b = block(0), block(1)
-    ab, ba = [block(2 + i) for i in range(k)], [block(2 + k + i) for i in range(k)]
+    blocks = _blocks(outputs)
+    of_a, of_b = _changes(blocks)
+    varied = [_less(blocks[0], blocks[1]), *(_less(blocks[2 + i], blocks[2 + k + i]) for i in range(k))]
+    rest_a, rest_b = _changes(_blocks((outputs[0] - sums, outputs[1] - sums)))
     pairs = list(itertools.combinations(range(k), 2))
-    of_a, of_b = [_less(one, a) for one in ab], [_less(one, b) for one in ba]
-    varied = [_less(a, b), *(_less(x, y) for x, y in zip(ab, ba, strict=True))]
-    moments = [
-        _mean(1 / (2 * len(varied)), *map(_square, varied)),
-        *(_mean(-0.5, _times(of_b[i], of_a[i])) for i in range(k)),
-        *(_mean(0.25, _square(of_a[i]), _square(of_b[i])) for i in range(k)),
-        *(_mean(0.5, _times(of_b[i], of_a[j]), _times(of_b[j], of_a[i])) for i, j in pairs),
-        *(_mean(-0.5, _times(_less(ba[i], ba[j]), _less(ab[i], ab[j]))) for i, j in pairs),
+    first = [_mean(-0.5, _times(of_b[i], of_a[i])) for i in range(k)]
+    total = [_mean(0.25, _square(of_a[i]), _square(of_b[i])) for i in range(k)]
+    second = [_mean(0.5, _times(rest_b[i], rest_a[j]), _times(rest_b[j], rest_a[i])) for i, j in pairs]
+    closed = [
+        (first[i][0] + first[j][0] + both[0], first[i][1] + first[j][1] + both[1])
+        for (i, j), both in zip(pairs, second, strict=True)
     ]
+    variance = _mean(1 / (2 * len(varied)), *map(_square, varied))
+    moments = [variance, *first, *total, *second, *closed]
     return np.stack([low for low, _ in moments]), np.stack([high for _, high in moments])
+
+
+def _blocks(outputs: Interval) -> list[Interval]:
+    """Return the blocks of outputs: A, B, each AB_i, each BA_i."""
+    return [(outputs[0][:, place], outputs[1][:, place]) for place in range(outputs[0].shape[1])]
+
+
+def _changes(blocks: list[Interval]) -> tuple[list[Interval], list[Interval]]:
+    """Return each AB_i - A, and each BA_i - B."""
+    k = len(blocks) // 2 - 1
+    return [_less(one, blocks[0]) for one in blocks[2 : 2 + k]], [
+        _less(one, blocks[1]) for one in blocks[2 + k :]
+    ]
 
 
 def _less(x: Interval, y: Interval) -> Interval:
@@ -187,29 +205,21 @@ def _bounds(moments: Interval) -> Interval:
 
 
 def _of_grid(
-    outputs: np.ndarray, half_widths: np.ndarray, inputs: np.ndarray | None, estimate: np.ndarray
+    outputs: np.ndarray,
+    half_widths: np.ndarray,
+    trends: list[np.ndarray],
+    additive: Additive,
+    estimate: np.ndarray,
 ) -> np.ndarray:
     """Return the half-widths of indices for errors of the outputs within half-widths, see `indices`."""
     shape = (*outputs.shape[:3], *[1] * (outputs.ndim - 3))
 
     def change(error: np.ndarray) -> np.ndarray:
         """Return how an error of the outputs, in half-widths, changes the estimates."""
-        perturbed = outputs + error * half_widths
-        return _ratios(_moments((perturbed, perturbed))[0])[0] - estimate
+        perturbed = outputs + error.reshape(shape) * half_widths
+        return _ratios(_moments((perturbed, perturbed), additive.of(perturbed))[0])[0] - estimate
 
-    trends = [np.ones(outputs.shape[:3]), *(_ranks(column) for column in _columns(inputs))]
-    worst = [abs(change(sign * trend.reshape(shape))) for trend in trends for sign in (-1, 1)]
+    worst = [abs(change(sign * trend)) for trend in (np.ones(shape), *trends) for sign in (-1, 1)]
     random = np.random.default_rng(1)
-    drawn = np.stack([change(random.normal(0, 0.5, outputs.shape[:3]).reshape(shape)) for _ in range(DRAWS)])
+    drawn = np.stack([change(random.normal(0, 0.5, shape)) for _ in range(DRAWS)])
     return np.maximum.reduce([*worst, abs(drawn.mean(axis=0)) + 2 * drawn.std(axis=0, ddof=1)])
-
-
-def _columns(inputs: np.ndarray | None) -> list[np.ndarray]:
-    """Return the values of each input."""
-    return [] if inputs is None else list(np.moveaxis(inputs, -1, 0))
-
-
-def _ranks(values: np.ndarray) -> np.ndarray:
-    """Return values by their places among all, from -1 to 1, equal ones alike."""
-    distinct, places = np.unique(values, return_inverse=True)
-    return (2 * places / max(1, len(distinct) - 1) - 1).reshape(values.shape)

@@ -24,9 +24,13 @@ DRY_DEPTH = 1e-6
 GROWTH = 1.5
 """A box whose edge the front reaches grows by GROWTH, up to LARGEST_BOX times the paper's; the sea has no such edge."""
 
+ROOM = 1.25
+"""Room that a round sea starts with, over the way of a low wave until the last snapshot: many a run ends later."""
+
 SPARE = 32
-"""Cells that a sea starts with beyond where its waves may come: steps look some vectors ahead. Seas have whole
-multiples of it, so that many runs share their layout."""
+"""Cells that a sea starts with beyond where its waves may come: steps look some vectors ahead. Round
+seas have whole multiples of it, so that many runs share their layout; of a line without still water at both ends the
+last bits depend on its length."""
 
 ENDED = {
     k.AT_REST: "ok",
@@ -92,8 +96,9 @@ def first_box(point: Point) -> int:
     if not choice.at_sea(point) or choice.of(point).model == "one-layer":
         return box
     last = max(point.profile_times, default=0.0) if point.t_end is None else point.t_end
-    room = 1.1 * point.wave_reach(last) / point.scaled_dx + SPARE
-    return math.ceil(min(max(box, math.ceil(room / SPARE) * SPARE), LARGEST_BOX * box + SPARE))
+    round_, reach = choice.of(point).geometry == "radius", point.wave_reach(last) / point.scaled_dx
+    room = math.ceil(ROOM * reach / SPARE + 1) * SPARE if round_ else 1.1 * reach + SPARE
+    return math.ceil(min(max(box, room), LARGEST_BOX * box + SPARE))
 
 
 def attempt(

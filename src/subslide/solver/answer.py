@@ -15,7 +15,7 @@ from subslide.naming import FINISHED, FRONT_THRESHOLDS, STATUSES
 from subslide.points import Point
 from subslide.solver.arrest import time_of_arrest
 from subslide.solver.run import Run
-from subslide.solver.snapshots import Snapshot, in_metres, shared
+from subslide.solver.snapshots import Snapshot, profiles_in_si
 from subslide.study import choice
 
 SMEARED = 4
@@ -81,11 +81,11 @@ def series_in_si(model: Model, point: Point, sampled: np.ndarray, stood: bool) -
     if side is not None:
         series["x_front"][:, : None if stood else 1] = side * si.length
     alone, fitted = model.settings.layers == 1, choice.is_fitted(point)
-    series["eta_gauge"] = column[samples.GAUGE] * (math.nan if alone or fitted else si.height)
+    nothing = np.full(len(sampled), np.nan)
+    series["eta_gauge"] = nothing if alone or fitted else column[samples.GAUGE] * si.height
     for name, measured in measures.SERIES.items():
         known = model.settings.layers >= measured.layers and not (fitted and measured.wave)
-        values = column[samples.COLUMN[name]]
-        series[name] = measured.si(values, si) if known else np.full(len(sampled), np.nan)
+        series[name] = measured.si(column[samples.COLUMN[name]], si) if known else nothing
     return series
 
 
@@ -137,6 +137,8 @@ def wave_free_until(point: Point, room: float, time: np.ndarray, eta: np.ndarray
     float
         Time (s); beyond the end of the run if none can have been there, NaN as `room` is.
     """
+    if math.isnan(room) or (math.isinf(room) and np.isfinite(eta).all()):
+        return room
     still = point.wave_speed
     pace = 3 * np.sqrt(still**2 + point.g * np.fmax.accumulate(eta)) - 2 * still
     gone = np.append(0.0, np.cumsum(pace[1:] * np.diff(time)))
@@ -181,16 +183,12 @@ def make_run(
     Run
         Its answer.
     """
-    height, time_scale = point.column_height, point.time_scale
-    x, profiles = shared(model, snapshots)
-    whole = [snapshot.fields for snapshot in snapshots if snapshot.fields]
-    widths = [snapshot.width for snapshot in snapshots if snapshot.width is not None]
+    time_scale = point.time_scale
     time = sampled[:, samples.TIME] * time_scale
     series = series_in_si(model, point, sampled, stood=clock[k.REST_SINCE] == 0)
     front = series["x_front"]
     status, detail = ended
     free = wave_free_until(point, room, time, series["max_abs_eta_outside"])
-    alone = model.settings.layers == 1
     final = status in FINISHED
     rested = final and clock[k.REST_SINCE] >= 0
     return Run(
@@ -198,15 +196,10 @@ def make_run(
         model=model.name,
         model_reason=choice.of(point).reason,
         dx=math.nan if choice.is_fitted(point) else point.dx,
-        x=x * point.radius,
         time=time,
         series=series,
         snapshot_time=np.array([snapshot.time for snapshot in snapshots]),
-        h2=in_metres(profiles, "h2", height),
-        eta=np.full((len(profiles), x.shape[-1]), np.nan) if alone else in_metres(profiles, "eta", height),
-        h2_diagonal=in_metres(profiles, "h2_diagonal", height) if "h2_diagonal" in profiles[0] else None,
-        h2_field=in_metres(whole, "h2", height).astype(np.float32) if whole else None,
-        eta_field=in_metres(whole, "eta", height).astype(np.float32) if whole else None,
+        **profiles_in_si(point, model, snapshots),
         L_f=front[:, -1].copy() if final else np.full(len(FRONT_THRESHOLDS), np.nan),
         status=status,
         status_detail=detail,
@@ -216,7 +209,6 @@ def make_run(
         time_of_arrest=np.array([time_of_arrest(time, one) if rested else np.nan for one in front]),
         time_at_rest=float(clock[k.REST_SINCE] * time_scale if rested else np.nan),
         box_half_width=model.half_width * point.radius,
-        width=np.stack(widths) * point.radius if widths else None,
         grid=choice.of(point).grid,
         grid_reason=choice.of(point).grid_reason,
     )

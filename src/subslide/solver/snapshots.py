@@ -1,10 +1,17 @@
 """Profiles and fields that a run leaves on its way."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from subslide.models.model import Model
+from subslide.points import Point
+
+NONE = np.empty(0)
+"""Places of cells whose profiles are not kept."""
+
+WHERE_THERE_ARE = ("h2_diagonal", "h2_field", "eta_field", "width")
+"""Attributes of a run that only some have."""
 
 
 class Snapshot(NamedTuple):
@@ -38,7 +45,7 @@ def taken(time: float, model: Model, profiles: bool, fields: bool) -> Snapshot:
         Copies of its profiles and fields.
     """
     if not profiles:
-        return Snapshot(time, np.empty(0), None, {name: np.empty(0) for name in ("h2", "eta")}, None)
+        return Snapshot(time, NONE, None, {}, None)
     return Snapshot(time, model.x, model.width, model.profile(), model.fields() if fields else None)
 
 
@@ -58,7 +65,7 @@ def shared(model: Model, snapshots: list[Snapshot]) -> tuple[np.ndarray, list[di
         Scaled centres (nx), or of each snapshot (snapshots, nx) where cells move, and the profiles by name, each (nx),
         of each snapshot.
     """
-    if model.width is not None or not snapshots[0].x.size:
+    if model.width is not None:
         return np.stack([snapshot.x for snapshot in snapshots]), [one.profile for one in snapshots]
     x = model.x
     kept = np.abs(x) < model.half_width
@@ -74,6 +81,42 @@ def shared(model: Model, snapshots: list[Snapshot]) -> tuple[np.ndarray, list[di
     first, last = np.flatnonzero(kept)[[0, -1]]
     part = slice(first, last + 1)
     return x[part], [{name: values[part] for name, values in profile.items()} for profile in profiles]
+
+
+def profiles_in_si(point: Point, model: Model, snapshots: list[Snapshot]) -> dict[str, Any]:
+    """Return the places and profiles of a run in SI units.
+
+    Parameters
+    ----------
+    point
+        The run.
+    model
+        What was run, in its last state.
+    snapshots
+        Its snapshots.
+
+    Returns
+    -------
+    dict
+        Attributes of a `Run` by name; without cells where no profiles are kept.
+    """
+    if not snapshots[0].profile:
+        nothing = np.empty((len(snapshots), 0))
+        return {"x": NONE, "h2": nothing, "eta": nothing, **dict.fromkeys(WHERE_THERE_ARE)}
+    height = point.column_height
+    x, profiles = shared(model, snapshots)
+    whole = [snapshot.fields for snapshot in snapshots if snapshot.fields]
+    widths = [snapshot.width for snapshot in snapshots if snapshot.width is not None]
+    alone = model.settings.layers == 1
+    return {
+        "x": x * point.radius,
+        "h2": in_metres(profiles, "h2", height),
+        "eta": np.full((len(profiles), x.shape[-1]), np.nan) if alone else in_metres(profiles, "eta", height),
+        "h2_diagonal": in_metres(profiles, "h2_diagonal", height) if "h2_diagonal" in profiles[0] else None,
+        "h2_field": in_metres(whole, "h2", height).astype(np.float32) if whole else None,
+        "eta_field": in_metres(whole, "eta", height).astype(np.float32) if whole else None,
+        "width": np.stack(widths) * point.radius if widths else None,
+    }
 
 
 def in_metres(values: list[dict[str, np.ndarray]], name: str, height: float) -> np.ndarray:

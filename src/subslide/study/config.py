@@ -213,7 +213,7 @@ def resolve(values: dict, names: dict[str, str] | None = None) -> tuple[str, Poi
         If values do not go with one another: one line.
     """
     maker = expansion.Maker(values, (names or {}).get("scene_options", "scene_options"))
-    return maker.point(expansion.as_held(values))
+    return maker.point(dict(zip(values, expansion.as_held(values, values.values()), strict=True)))
 
 
 def _grids(values: dict) -> list[Grid]:

@@ -102,13 +102,10 @@ def points(along: list[Axis]) -> Iterator[tuple[str, Point]]:
     ConfigError
         If values do not go with one another: one line.
     """
-    maker = Maker([key for names, _ in along for key in names])
-    held_rows = ([as_held(dict(zip(names, row, strict=True))) for row in rows] for names, rows in along)
-    for parts in itertools.product(*held_rows):
-        values: dict[str, Any] = {}
-        for part in parts:
-            values |= part
-        yield maker.point(values)
+    stated = [key for names, _ in along for key in names]
+    maker = Maker(stated)
+    for parts in itertools.product(*([as_held(names, row) for row in rows] for names, rows in along)):
+        yield maker.point(dict(zip(stated, itertools.chain(*parts), strict=True)))
 
 
 def members(grid: Grid, along: list[Axis], ids: Sequence[str]) -> list[dict[str, Any]]:
@@ -233,20 +230,22 @@ class Maker:
             ) from None
 
 
-def as_held(values: dict[str, Any]) -> dict[str, Any]:
-    """Return checked values by key as points hold them; the scene's options, and m, as they are.
+def as_held(keys: Iterable[str], row: Iterable[Any]) -> tuple:
+    """Return checked values as points hold them; the scene's options, and m, as they are.
 
     Parameters
     ----------
-    values
-        Value by key.
+    keys
+        Key of each value.
+    row
+        The values.
 
     Returns
     -------
-    dict
+    tuple
         The values, numbers in one format.
     """
-    return {
-        key: value if key in (LABEL, "scene_options", FRICTION) else held(key, value)
-        for key, value in values.items()
-    }
+    return tuple(
+        value if key in (LABEL, "scene_options", FRICTION) else held(key, value)
+        for key, value in zip(keys, row, strict=True)
+    )

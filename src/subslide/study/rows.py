@@ -6,7 +6,7 @@ from typing import Any
 
 from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
-from subslide.keys.values import RUN_KEYS, held
+from subslide.keys.values import RUN_KEYS, default_of, held
 from subslide.points import Point, from_dict, to_dict
 from subslide.study import checking
 
@@ -29,15 +29,11 @@ def unlike(points: Sequence[Point]) -> list[str]:
     list of str
         Keys, in their order.
     """
-    first = points[0]
     chosen = frozenset().union(*(point.chosen for point in points)) - {
         "scene_options"
-    }  # others are the defaults
-    keys = [
-        key
-        for key in RUN_KEYS
-        if key in chosen and any(getattr(point, key) != getattr(first, key) for point in points)
-    ]
+    }  # what nobody chose is the default
+    first = {key: getattr(points[0], key) for key in RUN_KEYS if key in chosen}
+    keys = [key for key, value in first.items() if any(getattr(point, key) != value for point in points)]
     options = {repr(point.scene_options) for point in points}
     if len(options) > 1:  # text, since 1 and 1.0 are two values of an option
         keys.append("scene_options")
@@ -94,8 +90,8 @@ class Reader:
         known = {key: value for key, value in self.shared.items() if key in KEYS}
         if check:
             known = {key: schema.checked(key, value, f"{SHARED}: {key}") for key, value in known.items()}
-        chosen = from_dict(known).chosen
-        self.base = {key: value for key, value in chosen.items() if value != getattr(Point, key)}
+        whole = from_dict(known).chosen
+        self.base = {key: value for key, value in whole.items() if value != default_of(key)}
 
     def point(self, row: Mapping[str, Any], others: frozenset[str] = frozenset(("id",))) -> Point:
         """Return the point of a row.
@@ -120,14 +116,8 @@ class Reader:
         """
         if self.check:
             return self._checked(row, others)
-        point = object.__new__(Point)
-        values = vars(point)
-        values.update(self.base)
-        for key, value in row.items():
-            if key in KEYS:
-                values[key] = held(key, value)
-        values["id"] = row["id"]  # where the property keeps it
-        return point
+        values = {key: held(key, value) for key, value in row.items() if key in KEYS}
+        return Point.of({**self.base, **values, "id": row["id"]})  # where the property keeps it
 
     def _checked(self, row: Any, others: frozenset[str]) -> Point:
         """Return the point of a row, checked."""
@@ -142,12 +132,8 @@ class Reader:
                 if key not in keys:
                     raise ConfigError(f"{words.show(key)}: there is no such key{words.closest(key, keys)}")
             raise ConfigError("a key stands in the row and among those that all share; allowed: one of them")
-        point = object.__new__(Point)
-        values = vars(point)
-        values.update(self.base)
-        for key, value in row.items():
-            if key in KEYS:
-                values[key] = held(key, schema.checked(key, value))
+        values = {key: held(key, schema.checked(key, v)) for key, v in row.items() if key in KEYS}
+        point = Point.of({**self.base, **values})
         checking.check_whole(point)
         if point.id != row["id"]:
             raise ConfigError(

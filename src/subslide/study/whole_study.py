@@ -102,7 +102,7 @@ def lacking(name: str, points: list[Point], designs: Collection[str] = ()) -> st
 
 
 def _present(points: list[Point], designs: Collection[str]) -> Callable[[str], set]:
-    """Return a function that gives the values which points have of a key, or the kinds of designs, and looks once."""
+    """Return a function that gives the values which a study has of a key, and looks at the points once for each."""
     return functools.cache(
         lambda key: set(designs) if key == "design" else {getattr(point, key) for point in points}
     )

@@ -40,7 +40,7 @@ def lacking(name: str, results: "Results") -> str:
     kinds = {one["kind"] for one in results.designs}
     figures = whole_study.figures_of("auto", [run.point for run in runs], kinds)
     named = tuple((run.numerics, run.point) for run in runs)
-    study = Study(results.folder.name, figures, named, results.has_bands, designs=results.designs)
+    study = Study(results.folder.name, figures, named, results.has_bands, results.asked, results.designs)
     return tables.load(name).needs(study)
 
 

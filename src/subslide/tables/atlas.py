@@ -212,7 +212,11 @@ def budget(point: Point, record: dict, outcome: "pd.Series") -> dict:
 def _growths(results: "Results") -> dict[str, dict]:
     """Return `growth` of each run of the scene `shear`, by id: those alone have their profiles read."""
     among = [run for run in results.runs_of_study if run.point.scene == "shear"]
-    return {run.id: growth(run.point, record) for run, record in results.each(*PROFILES, among=among)}
+    return {
+        run.id: growth(run.point, record)
+        for run, record in results.each(*PROFILES, among=among)
+        if "h2" in record
+    }
 
 
 def growth(point: Point, record: dict) -> dict:

@@ -101,9 +101,11 @@ Verdicts:
 
 
 def needs(study: Study) -> str:
-    """Return '' for a study that has a scene with an exact solution."""
+    """Return '' for a study that has a scene with an exact solution, and keeps profiles."""
     known = catalogue.names("exact")
-    return "" if any(point.scene in known for point in study.points) else f"scene: {' or '.join(known)}"
+    if not any(point.scene in known for point in study.points):
+        return f"scene: {' or '.join(known)}"
+    return "" if study.keep == "all" else "keep: all"
 
 
 def table(results: "Results") -> list[dict]:

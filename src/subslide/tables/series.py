@@ -1,9 +1,8 @@
 """Series of every run, tidy: a row for each sample of each quantity."""
 
-import itertools
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -13,7 +12,8 @@ from subslide.records import thinning
 from subslide.study.config import Study
 
 if TYPE_CHECKING:
-    from subslide.results import Results
+    from subslide.records.variables import Variable
+    from subslide.results import Results, StudyRun
 
 TITLE = "Series"
 READS = ("records",)
@@ -34,8 +34,11 @@ QUANTITIES = {
 }
 """Unit and meaning of each quantity."""
 
+FRONTS = {f"x_front_{label}": n for label, n in FRONT_LABELS.items()}
+"""Place of each threshold by the name of its quantity."""
+
 MOST_RUNS_IN_CSV = 1000
-RUNS_IN_A_GROUP = 250
+RUNS_IN_A_GROUP = 1000
 """Runs whose rows are one group of a Parquet file."""
 
 
@@ -46,7 +49,8 @@ def about() -> str:
     )
     return f"""One row a sample, and a sample each time step (of runs of more than {thinning.LONGEST} steps those that
 keep every extreme; see docs/records.md). A quantity that a run lacks has no rows. Above {MOST_RUNS_IN_CSV} runs it is
-`series.parquet` instead.
+`series.parquet` instead, and of runs of which a summary is kept each quantity has samples of its own, between which
+straight lines give the others.
 
 Quantities:
 
@@ -97,21 +101,102 @@ def _write_csv(path: Path, results: "Results") -> None:
                 file.writelines(f"{start}{quantity},{end}\n" for start, end in zip(starts, ends, strict=True))
 
 
+class Flat(NamedTuple):
+    """Samples of some runs in one row: their times and values, and where those of each run begin and end.
+
+    Attributes
+    ----------
+    time, value
+        Run by run, and of each quantity by quantity, as in QUANTITIES.
+    counts
+        How many they are, by the id of the run (quantities).
+    start
+        Where they begin, by the id of the run.
+    """
+
+    time: np.ndarray
+    value: np.ndarray
+    counts: dict[str, np.ndarray]
+    start: dict[str, int]
+
+
+def flattened(variables: "Mapping[str, Variable]", ids: Sequence[str], thinned: bool) -> Flat:
+    """Return the samples of some runs of a record.
+
+    Parameters
+    ----------
+    variables
+        The record's, by name.
+    ids
+        Ids of the runs.
+    thinned
+        Whether it is a summary, where what is missing is no sample.
+
+    Returns
+    -------
+    Flat
+        Samples of the quantities that a run has.
+    """
+    known = {name: place for place, name in enumerate(variables["id"].values)}
+    places = [known[name] for name in ids]
+    time = variables["time"].values[places]
+    values = np.full((len(places), len(QUANTITIES), time.shape[1]), np.nan, time.dtype)
+    for n, name in enumerate(QUANTITIES):
+        if name in FRONTS:
+            values[:, n] = variables["x_front"].values[places, FRONTS[name]]
+        elif name in variables:
+            values[:, n] = variables[name].values[places]
+    there = np.logical_not(np.isnan(values)) if thinned else np.isfinite(time)[:, None]
+    taken = np.logical_and(there, np.any(np.isfinite(values), axis=2, keepdims=True))
+    values[np.isinf(values)] = np.nan
+    counts = taken.sum(axis=2)
+    ends = np.cumsum(counts.sum(axis=1))
+    return Flat(
+        np.broadcast_to(time[:, None], values.shape)[taken],
+        values[taken],
+        dict(zip(ids, counts, strict=True)),
+        dict(zip(ids, [0, *ends.tolist()], strict=False)),
+    )
+
+
 def _write_parquet(path: Path, results: "Results") -> None:
-    """Write the table as Parquet."""
+    """Write the table as Parquet: of a summary the samples that each quantity has of its own."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
     layout = pa.schema(
         [("id", pa.string()), ("time", pa.float64()), ("quantity", pa.string()), ("value", pa.float64())]
     )
-    with pq.ParquetWriter(path, layout) as writer:
-        runs = samples(results)
-        while group := list(itertools.islice(runs, RUNS_IN_A_GROUP)):
-            columns = (
-                [name for name, time, values in group for _ in range(len(time) * len(values))],
-                np.concatenate([np.tile(time, len(values)) for _, time, values in group]),
-                [quantity for _, time, values in group for quantity in values for _ in range(len(time))],
-                np.concatenate([entries for _, _, values in group for entries in values.values()]),
-            )
-            writer.write_table(pa.table(dict(zip(COLUMNS, columns, strict=True)), schema=layout))
+    names = pa.array(list(QUANTITIES))
+    with pq.ParquetWriter(path, layout, compression="zstd") as writer:
+        for part in results.parts():
+            flat = {}
+            for batch in dict.fromkeys(run.batch for run in part):
+                variables, attrs = results.opened(batch)
+                ids = [run.id for run in part if run.batch == batch]
+                flat[batch] = flattened(variables, ids, attrs.get("keep") == "summary")
+            for first in range(0, len(part), RUNS_IN_A_GROUP):
+                group = part[first : first + RUNS_IN_A_GROUP]
+                counts = np.stack([flat[run.batch].counts[run.id] for run in group])
+                time, value = (
+                    np.concatenate(each) for each in zip(*(_of(flat, run) for run in group), strict=True)
+                )
+                of_run = np.repeat(np.arange(len(group), dtype=np.int32), counts.sum(axis=1))
+                of_name = np.repeat(
+                    np.tile(np.arange(len(names), dtype=np.int32), len(group)), counts.ravel()
+                )
+                columns = {
+                    "id": pa.DictionaryArray.from_arrays(of_run, pa.array([run.id for run in group])),
+                    "time": time.astype(float),
+                    "quantity": pa.DictionaryArray.from_arrays(of_name, names),
+                    "value": value.astype(float),
+                }
+                writer.write_table(pa.table(columns).cast(layout))
+
+
+def _of(flat: dict[str, Flat], run: "StudyRun") -> tuple[np.ndarray, np.ndarray]:
+    """Return the times and values of a run."""
+    samples = flat[run.batch]
+    start = samples.start[run.id]
+    part = slice(start, start + int(samples.counts[run.id].sum()))
+    return samples.time[part], samples.value[part]
