@@ -29,10 +29,9 @@ def unlike(points: Sequence[Point]) -> list[str]:
     list of str
         Keys, in their order.
     """
-    chosen = frozenset().union(*(point.chosen for point in points)) - {
-        "scene_options"
-    }  # what nobody chose is the default
-    first = {key: getattr(points[0], key) for key in RUN_KEYS if key in chosen}
+    chosen = frozenset().union(*(point.chosen for point in points))  # what nobody chose is the default
+    plain = [key for key in RUN_KEYS if key in chosen and key != "scene_options"]
+    first = {key: getattr(points[0], key) for key in plain}
     keys = [key for key, value in first.items() if any(getattr(point, key) != value for point in points)]
     options = {repr(point.scene_options) for point in points}
     if len(options) > 1:  # text, since 1 and 1.0 are two values of an option
