@@ -6,7 +6,7 @@ from typing import Any
 
 from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
-from subslide.keys.values import RUN_KEYS, held
+from subslide.keys.values import RUN_KEYS, default_of, held
 from subslide.points import Point, from_dict, to_dict
 from subslide.study import checking
 
@@ -29,15 +29,10 @@ def unlike(points: Sequence[Point]) -> list[str]:
     list of str
         Keys, in their order.
     """
-    first = points[0]
-    chosen = frozenset().union(*(point.chosen for point in points)) - {
-        "scene_options"
-    }  # others are the defaults
-    keys = [
-        key
-        for key in RUN_KEYS
-        if key in chosen and any(getattr(point, key) != getattr(first, key) for point in points)
-    ]
+    chosen = frozenset().union(*(point.chosen for point in points))  # what nobody chose is the default
+    plain = [key for key in RUN_KEYS if key in chosen and key != "scene_options"]
+    first = {key: getattr(points[0], key) for key in plain}
+    keys = [key for key, value in first.items() if any(getattr(point, key) != value for point in points)]
     options = {repr(point.scene_options) for point in points}
     if len(options) > 1:  # text, since 1 and 1.0 are two values of an option
         keys.append("scene_options")
@@ -94,8 +89,8 @@ class Reader:
         known = {key: value for key, value in self.shared.items() if key in KEYS}
         if check:
             known = {key: schema.checked(key, value, f"{SHARED}: {key}") for key, value in known.items()}
-        chosen = from_dict(known).chosen
-        self.base = {key: value for key, value in chosen.items() if value != getattr(Point, key)}
+        whole = from_dict(known).chosen
+        self.base = {key: value for key, value in whole.items() if value != default_of(key)}
 
     def point(self, row: Mapping[str, Any], others: frozenset[str] = frozenset(("id",))) -> Point:
         """Return the point of a row.
