@@ -31,7 +31,7 @@ def test_a_table_says_what_it_is(name):
     assert len(tables.about(name)) > 10
     assert all(len(entry) == 2 and entry[1] for entry in module.COLUMNS.values())
     assert tables.files(name, 1)[0] == f"{name}.csv"
-    assert callable(module.table)
+    assert callable(getattr(module, "table", None) or module.columns)
 
 
 @pytest.mark.parametrize("name", NAMES)
