@@ -219,3 +219,19 @@ def test_the_atlas_and_its_search_run_in_the_study_of_stability_alone(project):
     assert jobs["table_atlas"] == jobs["table_cfl"] == jobs["table_runs"] == jobs["table_errors"] == 1
     assert jobs["batch"] >= 7  # one for each set of kernels
     assert sum(name.startswith("figure_stability_") for name in jobs) == 7
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("keep", ["series", "summary"])
+def test_a_study_without_profiles_is_whole(project, keep):
+    before = (project.results / "tables/runs.csv").read_bytes()
+    shutil.rmtree(project.results)
+    project.configure(
+        f"{STUDY}figures: [fig06_fronts, fig09_surface]\nkeep: {keep}\n".replace("figures: none\n", "")
+    )
+    project.snakemake()
+    assert (project.results / "tables/runs.csv").read_bytes() == before
+    assert {path.name for path in (project.results / "figures").glob("*.png")} == {
+        "fig06_fronts.png",
+        "fig09_surface.png",
+    }
