@@ -79,15 +79,16 @@ def test_a_killed_run_goes_on_to_the_same_bits(name, tmp_path, saving):
     assert whole.box_half_width > 1.4 * point.half_cells * point.dx or "box that grows" not in name
 
 
-def test_runs_that_ended_are_kept_to_the_bit(tmp_path, saving):
+@pytest.mark.parametrize("keep", ["all", "summary"])
+def test_runs_that_ended_are_kept_to_the_bit(tmp_path, saving, keep):
     points = [Point(cells=20, a_H=a_H, **more) for a_H in (1, 2) for more in ({}, {"boundary": "wall"})]
-    runs = [jobs.solved(point, 1) for point in points]
-    keeper = Keeper(tmp_path, "0001", points)
+    runs = [jobs.solved(point, 1, keep=keep) for point in points]
+    keeper = Keeper(tmp_path, "0001", points, keep)
     for run in runs:
         keeper.add(run)
     assert Keeper(tmp_path, "0002", points).take(points[0]) is None
-    assert Keeper(tmp_path, "0001", points, "summary").take(points[0]) is None
-    after = Keeper(tmp_path, "0001", points)
+    assert Keeper(tmp_path, "0001", points, "series").take(points[0]) is None
+    after = Keeper(tmp_path, "0001", points, keep)
     assert all(same(after.take(point), run) for point, run in zip(points, runs, strict=True))
     after.forget()
     assert not tmp_path.exists()

@@ -182,7 +182,9 @@ class Keeper:
             plain = about[run.point.id] = {}
             for field in dataclasses.fields(run):
                 value = getattr(run, field.name)
-                if isinstance(value, dict):
+                if isinstance(value, dict) and not any(isinstance(v, np.ndarray) for v in value.values()):
+                    plain[field.name] = {k: float(v) for k, v in value.items()}
+                elif isinstance(value, dict):
                     arrays |= {f"{run.point.id}/{field.name}/{k}": values for k, values in value.items()}
                 elif isinstance(value, np.ndarray):
                     arrays[f"{run.point.id}/{field.name}"] = value
