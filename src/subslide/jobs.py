@@ -225,11 +225,12 @@ def keep_batch(results: list["Run"], output: str, ledger: str | None, keep: str 
 
 def unused_part(ledger: str, output: str) -> tuple[Path, Path]:
     """Return the paths, beside those of a batch, of the ledger's file and record of the first part not yet there."""
-    stem = Path(ledger).stem
+    stem = Path(ledger).stem.partition("p")[0]  # what is solved again may be a part itself
     for number in itertools.count(1):
         part = Path(ledger).with_name(f"{stem}p{number}.json")
         record = Path(output).with_name(f"{part.stem}.nc")
-        if not any(os.path.lexists(path) for path in (part, record, checksums.beside(record))):
+        there = any(os.path.lexists(path) for path in (part, record, checksums.beside(record)))
+        if part != Path(ledger) and not there:  # Snakemake removes what a job that was stopped was to make
             break
     return part, record
 

@@ -6,8 +6,10 @@ import pytest
 
 from subslide import exact
 from subslide.__main__ import main
+from subslide.files import RecordError
 from subslide.keys.schema import ConfigError
 from subslide.pages import renewal, verification
+from subslide.records import thinning
 from subslide.results import Results
 from subslide.study import config
 from subslide.tables import _norms, _orders, errors
@@ -112,6 +114,28 @@ def test_one_value_without_an_answer_has_no_row(folder):
     found = folder(lambda point: 1.0, **{**WAVE, "delta": 20, "cells": 40})
     assert table(found).empty
     assert main(["verify", str(found)]) == 2
+
+
+def test_a_run_that_was_kept_without_profiles_has_no_row(tmp_path, make_run, solve_study, write_tables):
+    """A study that says `keep: summary` no more has its old batches as they are, and is no more than these allow."""
+    for cells, keep in ((40, "summary"), ([40, 80], "auto")):
+        study = config.make_study({"study": "t", "t_end": 0.5, **WAVE, "cells": cells, "keep": keep})
+        word = study.keep
+        solve_study(
+            study,
+            tmp_path,
+            lambda points, word=word: [
+                thinning.kept(solved(make_run, p, lambda _: 0.1), word) for p in points
+            ],
+        )
+    assert study.keep == "all"
+    results = write_tables(tmp_path, "runs", "errors")
+    assert set(results.errors["cells"]) == {80}
+    ((_, record),) = results.each("h2", among=results.runs_of_study[:1])
+    with pytest.raises(
+        RecordError, match="no h2: it was made with keep: summary; make the study again with keep: all"
+    ):
+        record["h2"]
 
 
 def test_the_front_is_compared_with_the_exact_edge(folder):

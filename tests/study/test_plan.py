@@ -80,6 +80,20 @@ def test_a_poorer_batch_is_solved_again_only_if_the_configuration_says_so_outrig
     assert [study(a_H=axis).keep for axis in ([1, 2], [1, 2, 3])] == ["all", "summary"]
 
 
+def test_a_poorer_batch_is_solved_again_in_batches_that_one_record_may_hold(solved, monkeypatch):
+    """A summary may have 20,000 runs, of any cell size: with profiles too much for memory, or one record."""
+    folder = solved(a_H=[1, 2, 3], cells=[40, 80], keep="summary")
+    assert len(plan.plan(study(a_H=[1, 2, 3], cells=[40, 80]), folder).batches) == 1
+    monkeypatch.setitem(batches.MOST_POINTS, "all", 2)
+    richer = plan.plan(study(a_H=[1, 2, 3], cells=[40, 80], keep="all"), folder)
+    assert sum(len(batch.points) for batch in richer.batches.values() if batch.text) == 6
+    for batch in richer.batches.values():
+        assert len(batch.points) <= 2
+        assert len({point.cells for point in batch.points}) == 1
+        assert {row["batch"] for row in json.loads(richer.points_text)["points"]} == set(richer.batches)
+    assert richer.batches["0001"].fault == plan.POORER
+
+
 def test_tables_do_not_depend_on_the_batches(make_run, solve_study, write_tables, tmp_path):
     tables = []
     for seconds, cores in ((1000, 1), (1, 5)):

@@ -90,6 +90,14 @@ def test_what_a_failed_job_has_solved_is_kept(study, tmp_path, monkeypatch, make
     assert left(study, tmp_path) == 0
 
 
+def test_what_is_left_of_a_part_that_is_solved_again_is_a_part_too(tmp_path):
+    """A name such as 0007p2p1 is none of a batch, and what 0007p2 names goes when its job is stopped."""
+    (tmp_path / "0007p1.json").touch()
+    kept = jobs.unused_part(str(tmp_path / "0007p2.json"), str(tmp_path / "0007p2.nc"))
+    assert [path.name for path in kept] == ["0007p3.json", "0007p3.nc"]
+    assert all(plan.NAME.fullmatch(path.stem) for path in kept)
+
+
 def test_a_job_that_has_solved_nothing_leaves_nothing(study, tmp_path, monkeypatch):
     def solve(point, threads, **rest):
         raise Stopped(signal.SIGTERM)

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from subslide import naming
 from subslide.files import RecordError
 from subslide.records import netcdf, thinning
 from subslide.records.variables import Variable
@@ -17,16 +18,17 @@ PLACES = ("id", "time", "snapshot_time", "h2", "grid", "cell_width")
 class OfRun(dict[str, Any]):
     """Variables of a run by name; asking for one that its record lacks is a fault of the record."""
 
-    def __init__(self, path: Path, values: dict[str, Any]):
-        """Keep the path of the record for the message."""
+    def __init__(self, path: Path, values: dict[str, Any], keep: str = "all"):
+        """Keep the path of the record, and how much it keeps of each run, for the message."""
         super().__init__(values)
-        self.path = path
+        self.path, self.keep = path, keep
 
     def __missing__(self, name: str) -> Any:
-        """Raise a RecordError: the record was written by another version."""
-        raise RecordError(
-            f"{self.path}: the record has no {name}: it is of another version; make the study again"
-        )
+        """Raise a RecordError: the record was written by another version, or keeps less."""
+        why = "it is of another version; make the study again"
+        if self.keep != "all" and name in naming.NAMES:
+            why = f"it was made with keep: {self.keep}; make the study again with keep: all"
+        raise RecordError(f"{self.path}: the record has no {name}: {why}")
 
 
 def read(path: Path, ids: Collection[str], names: Collection[str]) -> dict[str, dict[str, Any]]:
@@ -56,7 +58,7 @@ def read(path: Path, ids: Collection[str], names: Collection[str]) -> dict[str, 
     places = dict(zip(ids, _places(path, variables, ids), strict=True))
     wanted = {name: variables[name] for name in names if name in variables}
     runs: dict[str, dict[str, Any]] = {
-        name: OfRun(path, _of_run(variables, wanted, places[name])) for name in ids
+        name: OfRun(path, _of_run(variables, wanted, places[name]), attrs.get("keep", "all")) for name in ids
     }
     if attrs.get("keep") == "summary":
         for name, one in runs.items():

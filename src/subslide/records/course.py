@@ -119,6 +119,8 @@ def coarse(value: float, quantum: float) -> float:
 def summarise(series: np.ndarray, time: np.ndarray, share: float, least: float, kept: np.ndarray) -> None:
     """Set in `kept` which samples tell the course of each series, round these, and make all others not a number.
 
+    Samples that are kept in any case are compared with those of other runs, so they are not rounded.
+
     Parameters
     ----------
     series
@@ -134,6 +136,7 @@ def summarise(series: np.ndarray, time: np.ndarray, share: float, least: float, 
         values = series[row]
         allowed = tolerance(values, share, least)
         quantum = 2.0 ** math.floor(math.log2(allowed / 4)) if allowed > 0.0 else 0.0
+        exact = kept[row].copy()
         keep_samples(values, time, 0.8 * allowed, kept[row])
         for n in range(len(values)):
-            values[n] = coarse(values[n], quantum) if kept[row, n] else math.nan
+            values[n] = coarse(values[n], 0.0 if exact[n] else quantum) if kept[row, n] else math.nan

@@ -173,6 +173,24 @@ def split(points: Sequence[Point], sharing: Sharing = ALONE) -> list[list[Point]
     return [batch for _, batch in sorted(batches, key=lambda batch: -batch[0])]
 
 
+def of_one_record(points: Sequence[Point], keep: str) -> tuple[Point, ...]:
+    """Return those points of a batch which one record may hold: all, unless more is kept of each than it was made for.
+
+    Parameters
+    ----------
+    points
+        Points of the batch.
+    keep
+        What is kept of each run, one of `subslide.keys.kept.WORDS`.
+
+    Returns
+    -------
+    tuple of Point
+        The first batch that they are split into, however long a job may work.
+    """
+    return tuple(split(points, Sharing(keep, math.inf, 1))[0])
+
+
 def _bins(points: list[Point], costs: list[float], target: float, sharing: Sharing) -> list[list[int]]:
     """Return the places of points in bins of about `target` seconds: the costliest first, into the least filled bin.
 

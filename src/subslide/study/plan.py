@@ -21,7 +21,7 @@ from subslide.keys import kept
 from subslide.keys.schema import ConfigError
 from subslide.points import Point, from_dict
 from subslide.study import cost, pace, rows
-from subslide.study.batches import MOST_BATCH_BYTES, Sharing, spec_text, split
+from subslide.study.batches import MOST_BATCH_BYTES, Sharing, of_one_record, spec_text, split
 from subslide.study.config import Study
 
 NAME = re.compile(r"\d{4,9}(p\d{1,4})?")
@@ -148,7 +148,8 @@ def plan(study: Study, folder: Path, cores: int = 2) -> Plan:
         if points and entry.state == WHOLE:
             batches[name] = Batch(name, points, entry.digest)
         elif points:
-            batches[name] = _to_solve(name, points, study.keep, *entry.state)
+            batches[name] = _to_solve(name, of_one_record(points, study.keep), study.keep, *entry.state)
+    owner = {point.id: name for name, batch in batches.items() for point in batch.points}
     new = [point for point in asked.values() if point.id not in owner]
     sharing = Sharing(study.keep, study.batch_seconds, cores, pace.known())
     last = max((int(path.stem.partition("p")[0]) for path in ledger_files(folder)), default=0)

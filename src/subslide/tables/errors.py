@@ -88,8 +88,8 @@ def about() -> str:
     quantities = "\n".join(f"- `{name}`: {text}" for name, text in QUANTITIES.items())
     verdicts = "\n".join(f"- `{name}`: {text}" for name, text in VERDICTS.items())
     return f"""One row for each run, quantity and time with a known answer, in studies that have a scene with an exact
-solution. Times are those of `snapshot_times` after the start, and `t_end` where it is a time. Reasons for the expected
-orders: docs/verification.md.
+solution. Times are those of `snapshot_times` after the start, and `t_end` where it is a time. A run of which
+no profiles were kept (`keep`) has no rows. Reasons for the expected orders: docs/verification.md.
 
 Quantities:
 
@@ -115,6 +115,8 @@ def table(results: "Results") -> list[dict]:
     rows: list[dict] = []
     families: dict[str, list[dict]] = {}
     for run, record in results.each(*MEASURED, among=solved):
+        if "h2" not in record:  # of a batch that was solved while the study kept less
+            continue
         for row in run_rows(run.point, record):
             rows.append(row)
             families.setdefault(_family(run.point, row), []).append(row)
