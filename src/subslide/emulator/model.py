@@ -35,7 +35,7 @@ class Emulator:
     groups
         What was learned, by name, see `measures.LEARNED`.
     peak_band
-        Coefficients (10) of the logarithm of the relative band of the peak at the gauge; None without it.
+        Coefficients (12) of the logarithm of the relative band of the peak at the gauge; None without it.
     about
         Where it comes from and how far it erred, as the file states it.
     """
