@@ -239,6 +239,22 @@ def test_predict_prints_scaled_values_and_si_units(saved, capsys):
     assert "allowed: 0.5" in capsys.readouterr().err
 
 
+def test_predict_prints_nothing_of_what_it_refuses(saved, capsys):
+    assert main(["predict", "--emulator", str(saved), "--a-H", "20"]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith("subslide: a_H: 20 is outside what the emulator learned")
+
+
+def test_columns_broadcast_and_may_be_none(trained):
+    emulator = trained.emulator
+    depths, ratios = np.array([[1.0], [2.0]]), np.array([[0.2, 0.4, 0.6]])
+    every = emulator.predict(depths, ratios, 1.0, quantities="L_f_1pc")["L_f_1pc"].value
+    assert every[4] == pytest.approx(emulator.predict(2, 0.4, 1.0)["L_f_1pc"].value[0])
+    assert every.shape == (6,)
+    assert emulator.predict([], 0.4, 1.0)["x_front_1pc"].value.shape == (0, len(named.TIMES))
+
+
 def test_the_file_says_what_it_is(saved):
     told = json.loads(saved.read_text())
     assert told["format"] == model.FORMAT
