@@ -7,6 +7,7 @@ import pytest
 
 from subslide.sensitivity.effects import effect
 from subslide.sensitivity.indices import indices, labels
+from subslide.sensitivity.laws import fit
 
 SCRAMBLINGS, POINTS = 16, 64
 WEIGHTS = np.array([0.0, 0.5, 3.0, 9.0, 99.0])
@@ -187,3 +188,15 @@ def test_main_effects_are_means_over_the_other_inputs():
     assert np.all((bounds.least <= answer.mean) & (answer.mean <= bounds.most))
     assert np.all(bounds.most[1:] > bounds.least[1:])
     np.testing.assert_allclose(bounds.grid, 0.1)
+
+
+@pytest.mark.parametrize("groups", [1, 2])
+def test_a_law_of_few_groups_is_told_as_far_as_it_is(groups):
+    variables = np.exp(np.random.default_rng(3).normal(size=(groups, 6, 2)))
+    values = 2 * variables[..., 0] ** 0.5 / variables[..., 1]
+    law = fit(values, variables)
+    np.testing.assert_allclose(law.terms, [2, 0.5, -1])
+    ends = np.full((2, 3), np.nan) if groups == 1 else [law.terms, law.terms]
+    np.testing.assert_allclose([law.low, law.high], ends)
+    assert np.isnan(law.errors).all() == (groups == 1)
+    assert np.isnan(fit(-values, variables).terms).all()

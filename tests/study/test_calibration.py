@@ -170,6 +170,15 @@ def test_bad_input_is_told(files, words, told, capsys):
     assert told in capsys.readouterr().err
 
 
+def test_data_that_no_column_has_are_told_however_few(tmp_path, capsys):
+    (tmp_path / "mm.csv").write_text("time,x_front,error\n0.08,92,1\n0.16,119,1\n")
+    words = ["calibrate", str(tmp_path / "mm.csv"), "--threshold", "1%", "--no-check"]
+    assert main([*words, "--a-2", "0.56"]) == 0
+    assert "the model does not fit these data: they are not in m and s" in capsys.readouterr().out
+    assert main([*words, "--a-2", "50"]) == 2
+    assert "a_2: 50 is outside what the emulator learned; allowed: up to 20.5" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("text", "told"),
     [

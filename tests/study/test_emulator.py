@@ -211,6 +211,24 @@ def test_a_band_holds_its_share_of_errors():
         assert 0.93 < np.mean(np.abs(errors[half]) <= band[half]) < 0.97
 
 
+@pytest.mark.parametrize("count", [20, 40])
+def test_bands_of_few_columns_hold_columns_that_were_not_seen(count):
+    names = ("L_f_1pc", "L_f_5pc")
+
+    def values(rows):
+        told = Emulator.load().predict(*rows.T, quantities=names)
+        return np.stack([told[name].value for name in names], axis=1)
+
+    others, held = np.array(inner(400)), []
+    for seed in range(4):
+        rows = np.array(columns(count, seed))
+        known = fitting.learn(coordinates.GRAINS, names, rows, values(rows), 1e-4 * values(rows)).group
+        guess, band = known(others)
+        held.append(np.abs(guess - values(others)) <= band)
+    assert np.mean(held) > 0.95
+    assert np.mean(held, axis=1).min() > 0.85
+
+
 def test_predict_prints_scaled_values_and_si_units(saved, capsys):
     assert main(["predict", "--a-H", "2", "--r", "0.4", "--a-2", "0.56", "--emulator", str(saved)]) == 0
     printed = capsys.readouterr().out
@@ -219,6 +237,22 @@ def test_predict_prints_scaled_values_and_si_units(saved, capsys):
     assert metres == pytest.approx(0.0705 * value, rel=1e-3)
     assert main(["predict", "--a-H", "20", "--emulator", str(saved)]) == 2
     assert "allowed: 0.5" in capsys.readouterr().err
+
+
+def test_predict_prints_nothing_of_what_it_refuses(saved, capsys):
+    assert main(["predict", "--emulator", str(saved), "--a-H", "20"]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith("subslide: a_H: 20 is outside what the emulator learned")
+
+
+def test_columns_broadcast_and_may_be_none(trained):
+    emulator = trained.emulator
+    depths, ratios = np.array([[1.0], [2.0]]), np.array([[0.2, 0.4, 0.6]])
+    every = emulator.predict(depths, ratios, 1.0, quantities="L_f_1pc")["L_f_1pc"].value
+    assert every[4] == pytest.approx(emulator.predict(2, 0.4, 1.0)["L_f_1pc"].value[0])
+    assert every.shape == (6,)
+    assert emulator.predict([], 0.4, 1.0)["x_front_1pc"].value.shape == (0, len(named.TIMES))
 
 
 def test_the_file_says_what_it_is(saved):

@@ -18,7 +18,10 @@ NARROW = 0.5
 CELLS = 256
 """Of the fitted grid on which the best fit is checked."""
 
-UNITS = {"a_H": "", "r": "", "delta": "degree"}
+FEW = 200
+"""Effective points below which quantiles at 2.5 and 97.5 % are rough: five of them lie beyond each."""
+
+UNITS = {"a_H": "", "r": "", "delta": " degree"}
 
 
 class Parameter(NamedTuple):
@@ -227,19 +230,23 @@ def lines(answer: Calibration) -> list[str]:
     text = [f"{'':<8}{'best':>10}{'median':>10}{'95 % from':>11}{'to':>10}   the data tell it?"]
     for key, one in answer.parameters.items():
         numbers = f"{one.best:>10.4g}{one.median:>10.4g}{one.low:>11.4g}{one.high:>10.4g}"
-        text.append(
-            f"{key:<8}{numbers}   {one.verdict} (may be {one.prior[0]:.3g} to {one.prior[1]:.3g} {UNITS[key]})"
-        )
+        may = f"{one.prior[0]:.3g} to {one.prior[1]:.3g}{UNITS[key]}"
+        text.append(f"{key:<8}{numbers}   {one.verdict} (may be {may})")
     for i, first in enumerate(model.free):
         for j, second in enumerate(model.free[:i]):
             text.append(f"correlation of {second} and {first}: {answer.correlation[i, j]:.2f}")
-    freedom = len(model.data.place) - len(model.free)
+    freedom = max(1, len(model.data.place) - len(model.free))
     text.append(
         f"chi-squared {answer.chi_square:.3g} of {len(model.data.place)} data and {len(model.free)} parameters"
     )
-    if freedom > 0 and answer.chi_square > freedom + 4 * (2 * freedom) ** 0.5:
+    if answer.chi_square > freedom + 4 * (2 * freedom) ** 0.5:
         text.append(
-            "the model does not fit these data: their errors are larger than stated, or it is wrong here"
+            "the model does not fit these data: they are not in m and s from the release, their errors are larger than"
+            " stated, or it is wrong here"
+        )
+    if answer.posterior.effective < FEW:
+        text.append(
+            f"the posterior rests on {answer.posterior.effective:.0f} effective points: its intervals are rough"
         )
     share = 100 * model.discrepancy
     text.append(

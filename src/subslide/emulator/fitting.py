@@ -64,7 +64,9 @@ def learn(
     covariance = kernel(points, points) + np.diag(noise / white[0] + white[1])
     inverse = np.linalg.inv(covariance)
     weights = inverse @ (rest / spread)
-    error = weights / np.diag(inverse)[:, None] * spread * scale
+    hat = basis @ np.linalg.pinv(basis)
+    of_trend = np.sum(inverse * hat, axis=1) / (1 - np.diag(hat))  # the trend too is found without the point
+    error = (weights * spread + of_trend[:, None] * rest) / np.diag(inverse)[:, None] * scale
     spread_of = coordinates.of_errors(z)
     bands = np.stack(
         [_band(spread_of, e / s, d / s) for e, s, d in zip(error.T, scale.T, doubt.T, strict=True)], axis=1
@@ -119,8 +121,14 @@ def _tuned(z: np.ndarray, rest: np.ndarray, noise: np.ndarray) -> tuple[np.ndarr
 
 
 def _band(basis: np.ndarray, errors: np.ndarray, doubt: np.ndarray) -> np.ndarray:
-    """Return the coefficients of ln(band): a quadratic through ln|error|, moved so that it holds COVERED of them."""
-    size = np.sqrt(errors**2 + doubt**2 + LEAST**2)
-    coefficients = np.linalg.lstsq(basis, np.log(size), rcond=None)[0]
-    coefficients[0] += np.quantile(np.log(size) - basis @ coefficients, COVERED)
+    """Return the coefficients of ln(band): a smooth function through ln|error|, moved so that it holds COVERED of them.
+
+    How far each error lies from it is judged without that error, and the next one counts too: with few points a
+    function follows them, and the 95 % of them that it holds would be far less of others.
+    """
+    size = np.log(np.sqrt(errors**2 + doubt**2 + LEAST**2))
+    inverse = np.linalg.pinv(basis)
+    coefficients = inverse @ size
+    apart = (size - basis @ coefficients) / (1 - np.sum(basis * inverse.T, axis=1))
+    coefficients[0] += np.quantile(apart, min(1.0, COVERED * (1 + 1 / len(size))))
     return coefficients

@@ -26,9 +26,10 @@ class Group(NamedTuple):
         Coordinates.
     names
         The quantities.
-    law, trend, bands
-        Coefficients (10, q) of the logarithm of their law, of their trend over it, and of the logarithm of their band
-        over it.
+    law, trend
+        Coefficients (10, q) of the logarithm of their law, and of their trend over it.
+    bands
+        Coefficients (12, q) of the logarithm of their band over the law, see `coordinates.of_errors`.
     process
         What is left, over the law.
     """

@@ -35,7 +35,7 @@ class Emulator:
     groups
         What was learned, by name, see `measures.LEARNED`.
     peak_band
-        Coefficients (10) of the logarithm of the relative band of the peak at the gauge; None without it.
+        Coefficients (12) of the logarithm of the relative band of the peak at the gauge; None without it.
     about
         Where it comes from and how far it erred, as the file states it.
     """
@@ -90,7 +90,7 @@ class Emulator:
         *,
         a_2: Numbers | None = None,
         delta: Numbers | None = None,
-        quantities: Iterable[str] | None = None,
+        quantities: str | Iterable[str] | None = None,
         times: Numbers = named.TIMES,
     ) -> dict[str, Predicted]:
         """Return values and 95 % bands, which hold the error of the emulator and of the grids that it learned from.
@@ -104,14 +104,15 @@ class Emulator:
         a_2, delta
             aspect ratio and friction angle (degree).
         quantities
-            What to predict; all `quantities` without it.
+            What to predict, one or several; all `quantities` without it.
         times
             Scaled times, t / sqrt(R / (g a_2)), of x_front; max|eta| is known at `measures.TIMES`.
 
         Returns
         -------
         dict
-            By quantity: arrays (n), of x_front and max|eta| (n, times). Lengths are over R, displacements of the water
+            By quantity: arrays (n), of x_front and max|eta| (n, times); n counts the broadcast columns, the last axis
+            fastest. Lengths are over R, displacements of the water
             over H2, times over sqrt(R / (g a_2)).
 
         Raises
@@ -120,7 +121,8 @@ class Emulator:
             If a value lies outside the range, or a quantity is unknown.
         """
         inputs = self.inputs(a_H, r, m, a_2, delta)
-        wanted = tuple(self.quantities if quantities is None else quantities)
+        wanted = self.quantities if quantities is None else quantities
+        wanted = (wanted,) if isinstance(wanted, str) else tuple(wanted)
         for name in wanted:
             if name not in self.quantities:
                 raise ConfigError(
@@ -133,7 +135,7 @@ class Emulator:
         ]
         parts = [
             self._chunk(groups, inputs[first : first + CHUNK], wanted, moments)
-            for first in range(0, len(inputs), CHUNK)
+            for first in range(0, max(1, len(inputs)), CHUNK)
         ]
         return {
             name: Predicted(*(np.concatenate([part[name][k] for part in parts]) for k in (0, 1)))
@@ -169,7 +171,9 @@ class Emulator:
             raise ConfigError("m: is given, or a_2 and delta are; allowed: one of the two")
         if m is None:
             m = np.tan(np.radians(np.asarray(delta, float))) / np.asarray(a_2, float)
-        columns = np.broadcast_arrays(*(np.asarray(one, float).ravel() for one in (a_H, r, m)))
+        columns = [
+            one.ravel() for one in np.broadcast_arrays(*(np.asarray(one, float) for one in (a_H, r, m)))
+        ]
         for (key, (low, high)), column in zip(self.range.items(), columns, strict=True):
             outside = ~((column >= low * (1 - EDGE)) & (column <= high * (1 + EDGE)))
             if outside.any():

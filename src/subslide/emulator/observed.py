@@ -17,6 +17,9 @@ COLUMNS = ("time", "x_front", "error")
 FREE = ("a_H", "r", "delta")
 """Parameters that data may choose."""
 
+STEEPEST = math.tan(math.radians(89))
+"""Tangent of the largest friction angle that a run may have."""
+
 OF_95 = 1.96
 """Half-width of a 95 % band over the standard deviation."""
 
@@ -196,6 +199,11 @@ def weights_of(threshold: float) -> dict[int, float]:
 
 def check_known(model: Model) -> None:
     """Raise a ConfigError unless known values lie where the emulator answers, and some parameter is free."""
+    steepest = STEEPEST / model.emulator.range["m"][1]
+    if model.column.a_2 > steepest:
+        raise ConfigError(
+            f"a_2: {model.column.a_2:g} is outside what the emulator learned; allowed: up to {steepest:.3g}"
+        )
     for key, value in model.fixed.items():
         low, high = model.ends[key]
         if not low <= value <= high:

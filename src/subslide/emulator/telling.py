@@ -30,12 +30,13 @@ def lines(emulator: Emulator, point: Point) -> Iterator[str]:
         A heading, and a line for each quantity and time: scaled value and 95 % band, then both in SI units.
     """
     a_H, r, m = point.a_H, point.r, point.friction_number
+    answers = emulator.predict(a_H, r, m)  # refused before a line is printed
     scales = (
         f"R = {point.radius:g} m, H2 = {point.column_height:g} m, sqrt(R/(g a_2)) = {point.time_scale:.4g} s"
     )
     yield f"a_H = {a_H:g}, r = {r:g}, m = tan(delta)/a_2 = {m:.4g}; {scales}"
     yield f"{'quantity':<22}{'time s':>9}{'value':>12}{'band':>11}{'':>5}{'value':>12}{'band':>11}"
-    for name, (values, bands) in emulator.predict(a_H, r, m).items():
+    for name, (values, bands) in answers.items():
         scale, unit, key = SCALES[name]
         size = getattr(point, key)
         times = named.TIMES if values.ndim == 2 else (None,)

@@ -17,7 +17,7 @@ class Law(NamedTuple):
     terms
         C, then the exponents.
     low, high
-        Ends of their bands.
+        Ends of their bands; not numbers without two groups.
     predicted
         Values (groups, points) of the law fitted without the group that a point belongs to.
     errors
@@ -38,7 +38,7 @@ def fit(values: np.ndarray, variables: np.ndarray) -> Law:
     """Return the power law that fits values best, in logarithms.
 
     Groups are left out in turn for the error, and resampled with repeats for the bands (a bootstrap): points of one
-    scrambling of a design depend on one another, groups do not.
+    scrambling of a design depend on one another, groups do not. What too few points do not tell is not a number.
 
     Parameters
     ----------
@@ -61,9 +61,11 @@ def fit(values: np.ndarray, variables: np.ndarray) -> Law:
 
     def solved(weights: np.ndarray) -> np.ndarray:
         """Return the terms (n, terms) by weights (n, groups) of the groups."""
-        return np.linalg.solve(
-            np.tensordot(weights, squares, 1), np.tensordot(weights, products, 1)[..., None]
-        )[..., 0]
+        left, right = np.tensordot(weights, squares, 1), np.tensordot(weights, products, 1)
+        told = np.linalg.matrix_rank(left, hermitian=True) == left.shape[-1]
+        answer = np.full(right.shape, np.nan)
+        answer[told] = np.linalg.solve(left[told], right[told][..., None])[..., 0]
+        return answer
 
     groups = len(values)
     terms = solved(np.ones((1, groups)))[0]
@@ -72,9 +74,13 @@ def fit(values: np.ndarray, variables: np.ndarray) -> Law:
     resampled = solved(drawn.astype(float))
     predicted = np.einsum("gpi,gi->gp", np.concatenate([ones, np.log(variables)], axis=-1), without)
     left = np.where(kept, predicted - logarithms, np.nan)
-    explained = 1 - np.nanmean(left**2) / np.var(logarithms[kept])
+    some = np.isfinite(left)
+    explained = 1 - np.mean(left[some] ** 2) / np.var(logarithms[some]) if some.any() else np.nan
     tails = ((1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2)
-    low, high = np.quantile(resampled, tails, axis=0)
+    whole = resampled[np.isfinite(resampled[:, 0])]
+    low, high = (
+        np.quantile(whole, tails, axis=0) if groups > 1 and len(whole) else np.full((2, len(terms)), np.nan)
+    )
     for one in (terms, low, high):
         one[0] = np.exp(one[0])
     return Law(terms, low, high, np.exp(predicted), abs(np.expm1(left)), float(explained))

@@ -31,7 +31,7 @@ COLUMNS = {
     "source": ("", f"`{OURS}`, or `{LABORATORY}`: round dry columns of sand and the like, a_2 below 1.7"),
     "term": ("", "C, or the variable that the exponent belongs to"),
     "value": ("", "the factor, or the exponent"),
-    "low": ("", "lower end of its 95 % band, a bootstrap over scramblings"),
+    "low": ("", "lower end of its 95 % band, a bootstrap over scramblings; empty if there is one alone"),
     "high": ("", "upper end"),
     "error_median": (
         "",
@@ -72,12 +72,15 @@ def table(results: "Results") -> Iterator[dict]:
     for design in _saltelli.designs(results):
         for fitted in laws(results, design, listed):
             law = fitted.law
+            kept = fitted.values > 0
+            errors = law.errors[np.isfinite(law.errors)]
+            median, most = np.quantile(errors, (0.5, 0.95)) if errors.size else (np.nan, np.nan)
             quality = {
-                "error_median": float(np.nanmedian(law.errors)),
-                "error_95": float(np.nanquantile(law.errors, 0.95)),
+                "error_median": float(median),
+                "error_95": float(most),
                 "explained": law.explained,
-                "runs": int(np.isfinite(law.errors).sum()),
-                "left_out": " ".join(dict.fromkeys(by_scrambling(design.ids)[np.isnan(law.errors)])),
+                "runs": int(kept.sum()),
+                "left_out": " ".join(dict.fromkeys(by_scrambling(design.ids)[~kept])),
             }
             first = {**design.first, "law": fitted.name}
             for term, *ends in zip(("C", *fitted.names), law.terms, law.low, law.high, strict=True):
