@@ -68,6 +68,16 @@ class MadeUpResults:
         """Return the dataset of one run."""
         return self.records[name]
 
+    profiles = record
+
+    def curves(self, quantity, ids):
+        """Return times and values of a series of some runs, by their ids."""
+        rows = self.series[(self.series["quantity"] == quantity) & self.series["id"].isin(ids)]
+        return {
+            key: (of_run["time"].to_numpy(), of_run["value"].to_numpy())
+            for key, of_run in rows.groupby("id", sort=False)
+        }
+
 
 def scales(runs):
     """Return the ratios of the paper's times to those of columns of other radii."""
