@@ -10,8 +10,7 @@ SEED = int(os.environ.get("SUBSLIDE_FAULTS_SEED", "20261127"))
 """What the moments and places of all faults follow from."""
 
 SHORT = (
-    *(harm.kill_group, harm.kill_snakemake_alone, harm.stop_a_job, harm.fill_the_disk),
-    *(harm.plan_another_while_it_runs, harm.run_twice_at_once),
+    *(harm.kill_snakemake_alone, harm.stop_a_job, harm.fill_the_disk, harm.plan_another_while_it_runs),
     *(harm.flip_bits_of_a_record, harm.shuffle_times),
 )
 """Faults that guard a landing; the long lane has them all, those of running studies twice."""

@@ -23,9 +23,7 @@ RUNS = {
     "a fitted grid": Point(cells=32, grid="fitted", quantities="grains", snapshot_times=(0.1,)),
     "one layer": Point(cells=40, r=0.0, model="one-layer"),
     "a quarter": Point(cells=40, model="quarter", snapshot_times=(0.02, 0.2), fields=True, t_end=0.25),
-    "the plane, float32, first order": Point(
-        cells=20, model="plane", dtype="float32", order=1, snapshot_times=(0.1,), t_end=0.3
-    ),
+    "the plane, first order": Point(cells=20, model="plane", order=1, snapshot_times=(0.1,), t_end=0.3),
     "a line, its ends joined": Point(cells=40, scene="shear", boundary="periodic", t_end=0.3),
 }
 
