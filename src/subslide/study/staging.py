@@ -282,9 +282,12 @@ def forget(folder: Path, batches: Iterable[Batch]) -> None:
         Batches that are to be solved.
     """
     wanted = {point.id for batch in batches for point in batch.points}
-    for path in (folder / "records" / UNFINISHED).glob("*.npz"):
+    home = folder / "records" / UNFINISHED
+    for path in home.glob("*.npz"):
         if wanted.isdisjoint(_ended(path) if path.stem.startswith("batch-") else {path.stem}):
             path.unlink(missing_ok=True)
+    with contextlib.suppress(OSError):
+        home.rmdir()
 
 
 def _ended(path: Path) -> set[str]:
