@@ -100,6 +100,11 @@ onstart:
 
 onsuccess:
     REPORTER.stop()
+    # runs of batches that were killed and shared out anew, whose files no batch has to itself
+    left = (
+        batch for name, batch in PLAN.batches.items() if not (RESULTS / f"batches/{name}.json").exists()
+    )
+    staging.forget(RESULTS, left)
 
 
 onerror:

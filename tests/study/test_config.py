@@ -267,8 +267,10 @@ def test_the_papers_study_has_its_fifteen_runs_twice_and_their_companions(root):
 
 
 def test_every_study_of_the_repository_is_valid(root):
-    for name in ("paper", "smoke", "accuracy"):
-        assert config.read_study(root / f"config/{name}.yaml").name == name
+    for name in ("paper", "smoke", "accuracy", "stability"):
+        study = config.read_study(root / f"config/{name}.yaml")
+        assert study.name == name
+        assert study.keep == "all"  # errors and profiles are what they are for
 
 
 def test_generated_pages_are_current(root):

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from subslide import jobs
+from subslide import jobs, naming
 from subslide.points import Point
 from subslide.records import course, netcdf, scalars, thinning
 from subslide.results import open_record, trimmed
@@ -119,6 +119,21 @@ def test_records_without_profiles_are_read_like_others(keep, tmp_path):
         assert float(one["energy_rise"]) == scalars.of(run)["energy_rise"]
 
 
+def test_a_summary_is_of_bounded_length_too(make_run):
+    """Waves that go to and fro in a box until t_end: all runs of a record are padded to the longest."""
+    time = np.linspace(0, 1, 40_001)
+    wave = (1 - time / 2) * np.sin(10_000 * np.pi * time)
+    series = {name: np.zeros(len(time)) for name in naming.SERIES} | {
+        "x_front": np.ones((3, len(time))),
+        "eta_gauge": wave,
+    }
+    run = make_run(Point(cells=40), steps=40_000, **series)
+    short, others = (thinning.kept(run, keep) for keep in ("summary", "series"))
+    assert 1000 < len(short.time) <= thinning.LONGEST
+    passed = np.interp(others.time, short.time, short.eta_gauge)
+    assert np.abs(passed - others.eta_gauge).max() <= allowed(wave)
+
+
 def test_a_summary_takes_less_than_3_kB_a_point(tmp_path):
     random = np.random.default_rng(1)
     runs = [
@@ -157,6 +172,7 @@ def test_tables_follow_from_each_form(tmp_path, write_tables, solve_study, monke
 
 def draws_with_a_word(results, monkeypatch):
     """A figure of profiles says that there are none; one of series draws what is there, and reads no other rows."""
+    assert results.curves("max_abs_eta", []) == {}
     monkeypatch.setattr(type(results), "series", property(lambda self: pytest.fail("all series were read")))
     profiles, fronts = (importlib.import_module(f"subslide.figures.{name}").draw(results) for name in FIGURES)
     assert "did not keep" in profiles.get_suptitle()

@@ -84,7 +84,6 @@ def test_runs_that_ended_are_kept_to_the_bit(tmp_path, saving, keep):
     keeper = Keeper(tmp_path, "0001", points, keep)
     for run in runs:
         keeper.add(run)
-    assert Keeper(tmp_path, "0002", points).take(points[0]) is None
     assert Keeper(tmp_path, "0001", points, "series").take(points[0]) is None
     after = Keeper(tmp_path, "0001", points, keep)
     assert all(same(after.take(point), run) for point, run in zip(points, runs, strict=True))
@@ -113,6 +112,29 @@ def test_a_state_that_is_not_whole_counts_as_none(tmp_path, saving, monkeypatch,
     assert harm == "of another point" or same(
         solver.solve(point, keeper=Keeper(tmp_path, "1", [point])), whole
     )
+
+
+def test_runs_that_ended_are_taken_by_whatever_batch_has_them_next(tmp_path, saving):
+    """A plan after a kill has other numbers, and other batches, as soon as one of those begun with has ended."""
+    points = [Point(cells=20, a_H=a_H) for a_H in (1, 2, 3)]
+    runs = [jobs.solved(point, 1) for point in points]
+    killed = Keeper(tmp_path / "records" / staging.UNFINISHED, "0001", points)
+    (tmp_path / "records").mkdir()
+    killed._unsaved = runs[:2]
+    killed.save()
+    staging.forget(
+        tmp_path, [plan.Batch("0007", tuple(points[1:]), ""), plan.Batch("0008", (points[0],), "")]
+    )
+    first, second = (Keeper(killed.folder, *what) for what in (("0007", points[1:]), ("0008", points[:1])))
+    assert same(first.take(points[1]), runs[1])
+    assert first.take(points[2]) is None
+    first.add(runs[2])
+    first.forget()
+    assert same(second.take(points[0]), runs[0])
+    assert {path.name for path in killed.folder.iterdir()} == {"batch-0001-0000.npz"}
+    second.forget()
+    staging.forget(tmp_path, [])
+    assert not killed.folder.exists()
 
 
 def test_what_no_batch_is_to_solve_is_forgotten(tmp_path, saving):

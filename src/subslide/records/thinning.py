@@ -31,7 +31,8 @@ ABOUT = {
     "summary": f"of {', '.join(SUMMARY)} there are samples between which straight lines pass those of every time step"
     f" within {SHARE:g} of the range of the series (or {LEAST:g} of its largest size), with each local extreme that"
     " stands out by more; where another series alone has a sample values are missing, and infinite is what the run does"
-    " not have; there are no profiles",
+    f" not have; of a run that needs more than {LONGEST} samples for that, it tells those which `series` keeps;"
+    " there are no profiles",
 }
 """What a record says of its samples, by how much is kept."""
 ABOUT["series"] = f"{ABOUT['all']}; there are no profiles"
@@ -73,6 +74,8 @@ def _summary(run: "Run") -> "Run":
     marks[:, places[places < len(run.time)]] = True
     course.summarise(series, run.time, SHARE, LEAST, marks)
     stays = marks.any(axis=0)
+    if stays.sum() > LONGEST:
+        return _summary(thinned(run))
     fronts, short = len(run.x_front), series[:, stays].astype(np.float32)
     named = dict(zip(SUMMARY, (short[:fronts], *short[fronts:]), strict=True))
     _replace(run, run.time[stays].astype(np.float32), named)

@@ -160,6 +160,8 @@ class Tables:
             Times (s) and values by the id of each run that has the series.
         """
         path, wanted = self._table_path("series"), list(ids)
+        if not wanted:  # of no values Parquet cannot tell of which kind they are
+            return {}
         if path.suffix == ".parquet":
             rows = reading.rows_of(path, quantity=[quantity], id=wanted)
         else:

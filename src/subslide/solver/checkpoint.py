@@ -7,8 +7,10 @@ bits of what was never stopped, but for the seconds that it took.
 
 import contextlib
 import dataclasses
+import itertools
 import json
 import time
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -19,12 +21,10 @@ from subslide.files import replacing
 from subslide.points import Point
 from subslide.solver.run import Run
 from subslide.solver.snapshots import Snapshot
+from subslide.study.staging import ABOUT
 
 EVERY = 300.0
 """Seconds from one saving to the next: a run that takes less is never saved."""
-
-ABOUT = "about"
-"""Name of the array that holds all that is no array, as JSON."""
 
 
 class Saved(NamedTuple):
@@ -55,7 +55,9 @@ class Saved(NamedTuple):
 
 
 class Keeper:
-    """Files of one batch in a folder: those of its runs under way, by id, and of those that ended, by the batch.
+    """Files of one batch in a folder: those of its runs under way, by id, and of those that ended, many in one.
+
+    A plan that is made anew may have a point in another batch, so those that ended are looked for in all such files.
 
     Parameters
     ----------
@@ -78,7 +80,8 @@ class Keeper:
         self._unsaved: list[Run] = []
         self._last = time.monotonic()
         self._again = folder.is_dir()
-        for path in self._groups():
+        self._groups: list[Path] = []  # with no runs but this batch's
+        for path in sorted(folder.glob("batch-*.npz")):
             self.ended |= self._runs(path)
 
     @property
@@ -144,7 +147,7 @@ class Keeper:
 
     def forget(self) -> None:
         """Remove the files of the batch, whose record is whole."""
-        for path in (*self._groups(), *map(self._state, self.by_id)):
+        for path in (*self._groups, *map(self._state, self.by_id)):
             path.unlink(missing_ok=True)
         with contextlib.suppress(OSError):
             self.folder.rmdir()
@@ -152,10 +155,6 @@ class Keeper:
     def _state(self, id_: str) -> Path:
         """Return the path of the state of a run under way."""
         return self.folder / f"{id_}.npz"
-
-    def _groups(self) -> list[Path]:
-        """Return the files of runs that ended."""
-        return sorted(self.folder.glob(f"batch-{self.batch}-*.npz"))
 
     def _write_state(self, point: Point, saved: Saved) -> None:
         """Write the state of a run under way."""
@@ -190,18 +189,23 @@ class Keeper:
                     arrays[f"{run.point.id}/{field.name}"] = value
                 elif not isinstance(value, Point):
                     plain[field.name] = value.item() if isinstance(value, np.generic) else value
-        self._write(
-            self.folder / f"batch-{self.batch}-{len(self._groups()):04d}.npz", {"runs": about}, arrays
-        )
+        names = (self.folder / f"batch-{self.batch}-{number:04d}.npz" for number in itertools.count())
+        path = next(name for name in names if not name.exists())
+        self._write(path, {"runs": about}, arrays)
+        self._groups.append(path)
         for run in self._unsaved:
             self._state(run.point.id).unlink(missing_ok=True)
         self._unsaved = []
 
     def _runs(self, path: Path) -> dict[str, Run]:
         """Return the runs of a file, by id, of the batch's points."""
-        about, arrays = self._read(path)
+        about, arrays = self._read(path, self.by_id.keys())
         runs = {}
+        if about and self.by_id.keys() >= about["runs"].keys():
+            self._groups.append(path)
         for id_, plain in about.get("runs", {}).items():
+            if id_ not in self.by_id:
+                continue
             values: dict[str, Any] = dict(plain)
             for name, array in _of(id_, arrays).items():
                 field, _, key = name.partition("/")
@@ -220,13 +224,17 @@ class Keeper:
         with replacing(path) as temporary, open(temporary, "wb") as file:
             np.savez(file, **named)
 
-    def _read(self, path: Path) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
-        """Return what is no array in a file, and its arrays; nothing if it is not whole, or of other sources."""
+    def _read(self, path: Path, among: Collection[str] = ()) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+        """Return what is no array in a file, and its arrays; nothing if it is not whole, or of other sources.
+
+        Nothing either of one that has runs by id, and none among those given.
+        """
         try:
             with np.load(path, allow_pickle=False) as file:
-                arrays = dict(file)
-            about = json.loads(arrays.pop(ABOUT).tobytes())
-            return (about, arrays) if about["mark"] == self.mark else ({}, {})
+                about = json.loads(file[ABOUT].tobytes())
+                if about["mark"] != self.mark or (among and not set(among) & about["runs"].keys()):
+                    return {}, {}
+                return about, {name: file[name] for name in file.files if name != ABOUT}
         except Exception:  # a damaged file has numpy and zipfile raise whatever they come to
             return {}, {}
 

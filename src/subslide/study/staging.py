@@ -26,6 +26,8 @@ LONG_AGO = 1
 UNFINISHED = ".unfinished"
 """Folder beside records where batches of long runs keep what they have, see `solver.checkpoint`."""
 
+ABOUT = "about"
+"""Name of the array of its files that holds all that is no array, as JSON."""
 
 LEAST = len("whole\n")
 """Size of the stamp of what is whole, or is not there, of no rank."""
@@ -279,13 +281,24 @@ def forget(folder: Path, batches: Iterable[Batch]) -> None:
     batches
         Batches that are to be solved.
     """
-    wanted = set()
-    for batch in batches:
-        wanted |= {f"batch-{batch.name}", *(point.id for point in batch.points)}
-    for path in (folder / "records" / UNFINISHED).glob("*.npz"):
-        name = path.stem.rpartition("-")[0] if path.stem.startswith("batch-") else path.stem
-        if name not in wanted:
+    wanted = {point.id for batch in batches for point in batch.points}
+    home = folder / "records" / UNFINISHED
+    for path in home.glob("*.npz"):
+        if wanted.isdisjoint(_ended(path) if path.stem.startswith("batch-") else {path.stem}):
             path.unlink(missing_ok=True)
+    with contextlib.suppress(OSError):
+        home.rmdir()
+
+
+def _ended(path: Path) -> set[str]:
+    """Return the ids of the runs that a file of runs which ended has; none if it is damaged."""
+    import numpy as np
+
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            return set(json.loads(file[ABOUT].tobytes())["runs"])
+    except Exception:  # numpy and zipfile raise whatever they come to
+        return set()
 
 
 def _write(path: Path, text: str) -> None:
