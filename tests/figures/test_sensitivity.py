@@ -33,10 +33,10 @@ def answers(point):
 class MadeUp:
     """A finished study whose runs have these answers; some runs failed."""
 
-    def __init__(self, folder, bands=True, failed=0):
+    def __init__(self, folder, bands=True, failed=0, cases=None):
+        designs = [{"saltelli": {"points": 8, "seed": 1, "over": over}} for over in (BOX, SIMILAR)]
         given = {
-            "study": "made-up", "bands": bands,
-            "cases": [{"design": {"saltelli": {"points": 8, "seed": 1, "over": over}}} for over in (BOX, SIMILAR)],
+            "study": "made-up", "bands": bands, "cases": cases or [{"design": design} for design in designs],
         }  # fmt: skip
         study = make_study(given)
         self.study, self.folder, self.has_bands, self.designs = study, folder, bands, study.designs
@@ -135,6 +135,8 @@ class Emulator:
 
     def predict(self, a_H, r, m=None, a_2=None, delta=None, quantities=()):
         m = np.tan(np.radians(delta)) / a_2 if m is None else m
+        if np.min(a_H) < 0.5:
+            raise ConfigError("a_H: outside")
         return {"L_f_1pc": SimpleNamespace(value=1 + 0.9 / m)}
 
 
@@ -147,6 +149,19 @@ def test_the_emulator_gives_the_same_indices(whole, monkeypatch):
     apart = (of_length["emulated"] - of_length["estimate"]).abs()
     assert np.mean(apart <= 1.5 * of_length["sampling"] + 1e-9) > 0.9
     assert rows[rows["output"] != "L_f_1pc"]["emulated"].isna().all()
+
+
+def test_the_emulator_takes_distributions_not_what_a_small_design_drew(tmp_path, monkeypatch):
+    monkeypatch.setattr(_emulated, "Emulator", SimpleNamespace(load=Emulator))
+    monkeypatch.setattr(_emulated, "SHIPPED", Path(__file__))
+
+    def emulated(points, **over):
+        design = {"saltelli": {"points": points, "seed": 1, "scramblings": 2, "over": {**BOX, **over}}}
+        study = MadeUp(tmp_path, bands=False, cases=[{"design": design}])
+        return pd.DataFrame(indices.table(study)).get("emulated")
+
+    np.testing.assert_allclose(emulated(1), emulated(8), atol=1e-12)
+    assert emulated(1, a_H=[0.1, 10]) is None  # some columns lie beyond what the emulator knows
 
 
 def test_indices_state_their_size_and_parts(whole):

@@ -200,3 +200,19 @@ def test_a_law_of_few_groups_is_told_as_far_as_it_is(groups):
     np.testing.assert_allclose([law.low, law.high], ends)
     assert np.isnan(law.errors).all() == (groups == 1)
     assert np.isnan(fit(-values, variables).terms).all()
+
+
+@pytest.mark.filterwarnings("error")
+def test_what_too_few_runs_do_not_tell_is_missing():
+    inputs = blocks(2, np.random.default_rng(4), points=1)[:1]
+    outputs = np.exp(inputs[..., 0]) * (1 + inputs[..., 1])
+    told = indices(outputs, 0.01 * outputs, inputs)
+    assert np.isfinite(told.estimate).all()
+    assert np.isnan([told.low, told.high]).all()
+    along = effect(outputs, inputs[..., 0])
+    assert np.isnan(along.mean).any()
+    assert np.isnan([along.low, along.high]).all()
+    constant = indices(np.ones_like(outputs), 0.01 * outputs, inputs)
+    assert np.isnan([constant.estimate, constant.low, constant.high]).all()
+    nothing = indices(np.full_like(outputs, np.nan), None, inputs)
+    assert np.isnan([nothing.estimate, nothing.low, nothing.high]).all()

@@ -310,6 +310,9 @@ def test_emulate_makes_a_sealed_file_that_no_held_out_column_changes(study_of, c
     inside = Emulator.load(folder / "emulator.json").predict(2, 0.4, 1.0, quantities=["L_f_1pc"])["L_f_1pc"]
     assert 1.5 < inside.value[0] < 2.5
 
+    assert main(["emulate", str(folder), "--held-out", str(folder)]) == 2
+    assert "48 of its 48 runs are of columns that are learned" in capsys.readouterr().err
+
     words = ["emulate", str(folder), "--to", "0.01%", "--most", "3", "--cores", "1"]
     assert main(words) == 0
     assert "3 columns added" in capsys.readouterr().out

@@ -52,7 +52,7 @@ def test_the_outlook_counts_what_is_new_and_writes_nothing(solved, write_yaml, t
     assert lines[0] == "study 't': 20 runs and 40 companions for bands: 57 to solve, 3 kept"
     assert lines[1] == "  57 with kernels radial:float64"
     assert "3 batches (keep: all), about 0." in lines[2]
-    assert " s on 3 cores beside tables and figures, up to 1,000 MB a job" in lines[2]
+    assert " s on 3 cores beside tables and figures; jobs ask for up to 1,000 MB" in lines[2]
     assert files(tmp_path) == before
 
 

@@ -124,6 +124,13 @@ def emulate(
     jobs.set_threads(1)
     about = {"study": folder.resolve().name, "runs": len(runs), "sources": source_hash()}
     measured = [*training.of_study(study), *growing.kept(folder)]
+    others = None if held_out is None else Results(held_out)
+    seen = {one.point.similarity_key for one in measured}
+    if others and (shared := sum(run.point.similarity_key in seen for run in others.runs_of_study)):
+        raise ConfigError(
+            f"--held-out: {shared:,} of its {len(others.runs_of_study):,} runs are of columns that are learned;"
+            " allowed: a study of other columns"
+        )
     if goal is None:
         trained = training.learn(measured, about)
     else:
@@ -139,10 +146,10 @@ def emulate(
         )
         click.echo(f"{group}: {count} columns{lost}")
     report("leave-one-out", trained.left_out)
-    if held_out is not None:
+    if others is not None:
         from subslide.emulator import judging
 
-        report(f"held out, {held_out}", judging.held_out(trained.emulator, Results(held_out)))
+        report(f"held out, {held_out}", judging.held_out(trained.emulator, others))
     click.echo(path)
 
 

@@ -81,9 +81,10 @@ def effect(
     filled, low, high = ranges(outputs, (0, 1))
     sizes = member.sum(axis=1)
     total = sizes.sum(axis=0)
-    mean, sampling = ratios(sums(filled), sizes)
-    least, most = (sums(values).sum(axis=0) / total for values in (low, high))
     errors = np.full_like(filled, np.nan) if half_widths is None else half_widths.reshape(count, -1)
-    return Effect(
-        sums(column).sum(axis=0) / total, mean, sampling, sums(errors).sum(axis=0) / total, least, most
-    )
+    mean, sampling = ratios(sums(filled), sizes)
+    with np.errstate(invalid="ignore"):  # fewer runs than bins leave some empty
+        value, grid, least, most = (
+            sums(values).sum(axis=0) / total for values in (column, errors, low, high)
+        )
+    return Effect(value, mean, sampling, grid, least, most)

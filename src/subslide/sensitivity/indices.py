@@ -201,7 +201,7 @@ def _bounds(moments: Interval) -> Interval:
     low, high = (end.mean(axis=1) for end in moments)
     with np.errstate(all="ignore"):
         quotients = [numerator / variance[0] for numerator in (low[1:], high[1:]) for variance in (low, high)]
-    return np.minimum.reduce(quotients), np.maximum.reduce(quotients)
+        return np.minimum.reduce(quotients), np.maximum.reduce(quotients)
 
 
 def _of_grid(

@@ -19,7 +19,7 @@ def ratios(numerators: np.ndarray, denominators: np.ndarray) -> tuple[np.ndarray
     Returns
     -------
     tuple of ndarray
-        Ratios and half-widths (...); not numbers where all denominators are 0.
+        Ratios and half-widths (...); not numbers where all denominators are 0, half-widths also where all but one are.
     """
     from scipy import stats
 
@@ -28,5 +28,5 @@ def ratios(numerators: np.ndarray, denominators: np.ndarray) -> tuple[np.ndarray
     with np.errstate(all="ignore"):
         ratio = above / below
         others = (above - numerators) / (below - denominators)
-    scatter = np.sqrt((count - 1) / count * np.square(others - others.mean(axis=0)).sum(axis=0))
+        scatter = np.sqrt((count - 1) / count * np.square(others - others.mean(axis=0)).sum(axis=0))
     return ratio, float(stats.t.ppf((1 + CONFIDENCE) / 2, count - 1)) * scatter

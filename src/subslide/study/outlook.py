@@ -40,9 +40,11 @@ def lines(study: Study, folder: Path, cores: int) -> list[str]:
     if to_solve:
         seconds = [sum(map(sharing.cost, batch.points)) for batch in to_solve]
         most = max(staging.needs_of(batch, study.keep).mem_mb for batch in to_solve)
+        count = f"{len(to_solve):,} batch{'es' if len(to_solve) > 1 else ''}"
         told.append(
-            f"  {len(to_solve):,} batches (keep: {study.keep}), about {_rounded(sum(seconds))} core-seconds, or"
-            f" {_rounded(wall(seconds, cores))} s on {cores} cores beside tables and figures, up to {most:,} MB a job"
+            f"  {count} (keep: {study.keep}), about {_rounded(sum(seconds))} core-seconds, or"
+            f" {_rounded(wall(seconds, cores))} s on {cores} cores beside tables and figures; jobs ask for up to"
+            f" {most:,} MB"
         )
     disk = limits.estimate(study.solved, study.keep).disk
     told.append(f"  about {_rounded(disk / 1e6)} MB of records and tables in all")

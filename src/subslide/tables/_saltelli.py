@@ -1,7 +1,7 @@
 """Saltelli designs of a study: which run stands where in their blocks, with what inputs."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -42,6 +42,8 @@ class Design(NamedTuple):
         Places of the runs among those of the study, of the same shape.
     inputs
         Inputs of the runs, shape (scramblings, 2 + 2 inputs, points, inputs).
+    over
+        Distribution of each input, as points.json states it.
     """
 
     number: int
@@ -50,6 +52,7 @@ class Design(NamedTuple):
     ids: np.ndarray
     runs: np.ndarray
     inputs: np.ndarray
+    over: dict[str, dict[str, Any]]
 
     @property
     def first(self) -> dict[str, object]:
@@ -86,7 +89,8 @@ def designs(results: "Results") -> list[Design]:
         columns = [np.array([float(getattr(point, key)) for point in points]) for key in attributes]
         others = {key: one["others"][key] for key in differing if key in one["others"]}
         told = ", ".join(f"{key}: {words.show(value)}" for key, value in others.items())
-        made.append(Design(number, one["names"], told, ids, runs, np.stack(columns, axis=-1)[runs]))
+        inputs = np.stack(columns, axis=-1)[runs]
+        made.append(Design(number, one["names"], told, ids, runs, inputs, one["spec"]["over"]))
     return made
 
 

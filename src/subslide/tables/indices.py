@@ -127,8 +127,7 @@ def text(results: "Results") -> str:
         lines += ["", f"design {design} ({inputs}), {output}"]
         for kind in ("first", "total"):
             some = rows[rows["kind"] == kind]
-            lines += [
-                f"  {kind:6} {row['input']:6} {row['estimate']:7.3f}  [{row['low']:6.3f}, {row['high']:6.3f}]"
-                for _, row in some.iterrows()
-            ]
+            for _, row in some.iterrows():
+                band = f"[{row['low']:6.3f}, {row['high']:6.3f}]" if np.isfinite(row["low"]) else "no band"
+                lines.append(f"  {kind:6} {row['input']:6} {row['estimate']:7.3f}  {band}")
     return "\n".join(lines[1:])
