@@ -52,8 +52,8 @@ class MadeUp:
             "growth_rate_theory": rate,
         }
 
-    def record(self, name):
-        """Return the record of one run."""
+    def profiles(self, name):
+        """Return the record of one run, which has profiles."""
         point = self.all[name]
         half = point.cells // 2
         line = choice.of(point).model == "line"

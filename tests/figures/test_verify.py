@@ -54,8 +54,8 @@ class MadeUp:
             for point in study.points
         )
 
-    def record(self, name):
-        """Return the record of one run."""
+    def profiles(self, name):
+        """Return the record of one run, which has profiles."""
         point = self.all[name]
         half = point.cells // 2
         x = (np.arange(0 if point.scene == "paraboloid" else -half, half) + 0.5) * point.dx

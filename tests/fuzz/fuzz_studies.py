@@ -218,7 +218,7 @@ def older(path: Path, missing: str) -> None:
     variables, attrs = netcdf.read(path)
     variables.pop(missing)
     attrs[netcdf.CHECKSUM] = netcdf.digest(variables, attrs)
-    netcdf._store(path, variables, attrs)
+    netcdf._store(path, variables, attrs, small=False)
 
 
 def tables(source: Path, rng: random.Random, count: int) -> list[Input]:
@@ -375,7 +375,7 @@ def indices(source: Path, rng: random.Random, count: int) -> list[Input]:
         return lambda held: held[part][0].update({key: value})
 
     def less(part: str, key: str) -> Callable[[dict], None]:
-        return lambda held: held[part][0].pop(key)
+        return lambda held: lose(held, part, key)
 
     edits: dict[str, Callable[[dict], None]] = {
         **{f"{key} swapped": swap(key) for key in ("id", "batch", "cells")},
@@ -401,11 +401,25 @@ def indices(source: Path, rng: random.Random, count: int) -> list[Input]:
     return inputs
 
 
+def lose(held: dict, part: str, key: str) -> None:
+    """Take a key from the first row of a part of a file, or from what all rows share."""
+    (held[part][0] if key in held[part][0] else held["shared"]).pop(key)
+
+
+def spelt_out(content: bytes) -> bytes:
+    """Return a batch file that states each point whole, as they were before points shared values."""
+    held = json.loads(content)
+    shared = held.pop("shared")
+    held["points"] = [{**shared, **row} for row in held["points"]]
+    return json.dumps(held).encode()
+
+
 def specs(source: Path, rng: random.Random, count: int) -> list[Input]:
     """Batch files, damaged, by `batch`."""
     path = sorted((source / "batches").glob("*.json"))[-1]
     content = path.read_bytes()
-    rows = json.loads(content)["points"]
+    whole = spelt_out(content)
+    rows = json.loads(whole)["points"]
 
     def one(name: str, text: bytes, ends: str = BAD) -> Input:
         words, makes = ["batch", "b.json", "-o", "o.nc"], ("o.nc",) if ends in (GOOD, ANY) else ()
@@ -418,23 +432,29 @@ def specs(source: Path, rng: random.Random, count: int) -> list[Input]:
             makes,
         )
 
-    inputs = [one("as it is", content, GOOD)]
+    inputs = [one("as it is", content, GOOD), one("spelt out", whole, GOOD)]
     inputs += [one(name, damage(content)) for name, damage in ANYWHERE.items() if name != "less a byte"]
     inputs += [one(name, text) for name, text in JSONS.items()]
     edits: dict[str, Callable[[dict], None]] = {
         "no points": lambda held: held.pop("points"),
         "a point twice": lambda held: held["points"].append(held["points"][0]),
-        **{
-            f"without {key}": lambda held, key=key: held["points"][0].pop(key) for key in ("id", "r", "scene")
-        },
+        **{f"without {key}": lambda held, key=key: lose(held, "points", key) for key in ("id", "r", "scene")},
         "another key": lambda held: held["points"][0].update(nope=1),
     }
-    inputs += [one(name, _as_json(edit)(content)) for name, edit in edits.items()]
+    of_shared: dict[str, Callable[[dict], None]] = {
+        "nothing shared": lambda held: held.pop("shared"),
+        "shared is text": lambda held: held.update(shared="none"),
+        "another shared key": lambda held: held["shared"].update(nope=1),
+        "a key in both": lambda held: held["points"][0].update(scene=held["shared"]["scene"]),
+        "another shared value": lambda held: held["shared"].update(g=3.7),
+    }
+    inputs += [one(name, _as_json(edit)(content)) for name, edit in {**edits, **of_shared}.items()]
+    inputs += [one(f"{name}, spelt out", _as_json(edit)(whole)) for name, edit in edits.items()]
     rng.shuffle(inputs)
     inputs = inputs[: count // 2]
     while len(inputs) < count:
         name, edit, match = row_edits(rng, rows)
-        key, text = name.split(":")[0], _as_json(lambda held, edit=edit: edit(held["points"]))(content)
+        key, text = name.split(":")[0], _as_json(lambda held, edit=edit: edit(held["points"]))(whole)
         changed = next(
             new[key]
             for new, old in zip(json.loads(text)["points"], rows, strict=True)

@@ -294,7 +294,7 @@ def test_a_locale_without_greek_letters_stops_nothing():
 )
 def test_an_option_is_given_once(capsys, name):
     verb = cli.commands[name]
-    option = next(p for p in verb.params if getattr(p, "metavar", None) and p.param_type_name == "option")
+    option = next(p for p in verb.params if p.param_type_name == "option" and not p.is_flag)
     line = (name, *["x" for p in verb.params if p.param_type_name == "argument"])
     words = [*line, option.opts[0], "1", option.opts[-1], "2"]
     if option.multiple:

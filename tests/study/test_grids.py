@@ -189,7 +189,7 @@ def study(tmp_path, make_run, solve_study, write_tables):
         asked = {"study": "t", "model": "radial", "cells": 80, "a_H": [1, 2], "bands": True, **values}
 
         def solve(points):
-            return [fitted(make_run(p)) if p.a_H == 2 else make_run(p) for p in points]
+            return [fitted(make_run(p), cells=p.cells) if p.a_H == 2 else make_run(p) for p in points]
 
         solve_study(config.make_study(asked), tmp_path, solve)
         return write_tables(tmp_path)
@@ -211,7 +211,7 @@ def test_what_a_fitted_run_lacks_is_empty_in_tables(study, boundary):
     of_fitted = results.series[results.series["id"] == ids[2]]["quantity"]
     assert not set(WAVES) & set(of_fitted)
     assert "x_front_1pc" in set(of_fitted)
-    assert results.table("timing").set_index("id").loc[ids[2], "cells_in_box"] == 12
+    assert results.table("timing").set_index("id").loc[ids[2], "cells_in_box"] == 80
     assert not results.bands[results.bands["id"] == ids[2]]["quantity"].str.contains("eta").any()
     assert results.record(ids[2])["h2"].dims == ("snapshot", "cell")
 

@@ -10,6 +10,7 @@ from subslide import catalogue, scenes
 from subslide.keys import published, schema
 from subslide.keys.schema import ConfigError
 from subslide.study import config
+from subslide.tables import errors
 
 WRONG = {
     "an unknown key": {"detla": 30},
@@ -113,3 +114,11 @@ def test_every_key_option_and_name_is_in_it(validator):
     assert properties["scene"]["anyOf"][0]["enum"] == list(scenes.NAMES)
     for about in properties.values():
         assert about["description"]
+
+
+@pytest.mark.parametrize("name", ["accuracy", "stability"])
+def test_studies_against_exact_solutions_keep_profiles_however_many_runs_they_have(root, name):
+    study = config.read_study(root / f"config/{name}.yaml")
+    assert len(study.solved) > config.MOST_KEPT_WHOLE
+    assert study.keep == "all"
+    assert errors.needs(study) == ""
