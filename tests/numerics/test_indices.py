@@ -108,7 +108,7 @@ def test_series_have_the_indices_of_each_time():
     together = indices(outputs, errors, u)
     for n in (0, 1):
         alone = indices(outputs[..., n], errors[..., n], u)
-        for one, other in zip(together, alone, strict=True):
+        for one, other in zip(vars(together).values(), vars(alone).values(), strict=True):
             np.testing.assert_allclose(one[:, n], other, rtol=1e-9, atol=1e-9)
     assert np.isnan(indices(outputs).estimate[:, 2]).all()  # what does not vary has no index
 

@@ -17,6 +17,13 @@ MOST_BYTES = 10_000_000
 """Size from which on a file is no page."""
 
 results_argument = click.argument("results")
+pages_option = click.option(
+    "-o",
+    "--output",
+    metavar="FILE.md",
+    multiple=True,
+    help="page whose tables of the last run are written anew",
+)
 page_option = click.option(
     "-o", "--output", metavar="FILE.md", help="page whose table of the last run is written anew"
 )
@@ -143,13 +150,7 @@ def verify(results: str, output: str | None) -> int:
 
 @cli.command("work-precision")
 @results_argument
-@click.option(
-    "-o",
-    "--output",
-    metavar="FILE.md",
-    multiple=True,
-    help="page whose tables of the last run are written anew",
-)
+@pages_option
 def work_precision(results: str, output: tuple[str, ...]) -> None:
     """Chart error against seconds for a study that sweeps numerics; RESULTS is its folder, such as results/accuracy.
 

@@ -1,9 +1,10 @@
 """Main effects: the mean of an output over all other inputs, along one of them, with bands."""
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 
+from subslide.sensitivity.banded import Banded
 from subslide.sensitivity.failures import ranges
 from subslide.sensitivity.jackknife import ratios
 
@@ -11,7 +12,8 @@ BINS = 12
 """Parts of equal probability that an input's range is cut into."""
 
 
-class Effect(NamedTuple):
+@dataclass(frozen=True)
+class Effect(Banded):
     """Main effect of an input: arrays (bins).
 
     Attributes
@@ -20,30 +22,10 @@ class Effect(NamedTuple):
         Mean of the input in each bin.
     mean
         Mean of the output there, failed runs with the mean of all others.
-    sampling
-        Half-width for the sampling alone.
-    grid
-        Half-width for the grid error of the outputs, all of which may err alike; not a number without half-widths.
-    least, most
-        Mean where failed runs have the least or the largest output of the others; `mean` without failed runs.
     """
 
     value: np.ndarray
     mean: np.ndarray
-    sampling: np.ndarray
-    grid: np.ndarray
-    least: np.ndarray
-    most: np.ndarray
-
-    @property
-    def low(self) -> np.ndarray:
-        """Lower end of the band."""
-        return self.least - self.sampling - np.nan_to_num(self.grid)
-
-    @property
-    def high(self) -> np.ndarray:
-        """Upper end of the band."""
-        return self.most + self.sampling + np.nan_to_num(self.grid)
 
 
 def effect(
@@ -87,4 +69,4 @@ def effect(
         value, grid, least, most = (
             sums(values).sum(axis=0) / total for values in (column, errors, low, high)
         )
-    return Effect(value, mean, sampling, grid, least, most)
+    return Effect(sampling, grid, least, most, value=value, mean=mean)

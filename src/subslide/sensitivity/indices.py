@@ -17,11 +17,13 @@ it but its scatter. An index is the ratio of two means over all scramblings. Neg
 """
 
 import itertools
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from subslide.sensitivity.additive import Additive, ranks
+from subslide.sensitivity.banded import Banded
 from subslide.sensitivity.failures import ranges
 from subslide.sensitivity.jackknife import ratios
 
@@ -39,36 +41,17 @@ class Label(NamedTuple):
     places: tuple[int, ...]
 
 
-class Indices(NamedTuple):
+@dataclass(frozen=True)
+class Indices(Banded):
     """Indices in the order of `labels`, each an array (indices, ...).
 
     Attributes
     ----------
     estimate
         The index; not a number where the output does not vary.
-    sampling
-        Half-width for the sampling alone.
-    grid
-        Half-width for the grid error of the outputs; not a number without half-widths of theirs.
-    least, most
-        Bounds of the index where failed runs may have any output that others have; the estimate without failed runs.
     """
 
     estimate: np.ndarray
-    sampling: np.ndarray
-    grid: np.ndarray
-    least: np.ndarray
-    most: np.ndarray
-
-    @property
-    def low(self) -> np.ndarray:
-        """Lower end of the band."""
-        return self.least - self.sampling - np.nan_to_num(self.grid)
-
-    @property
-    def high(self) -> np.ndarray:
-        """Upper end of the band."""
-        return self.most + self.sampling + np.nan_to_num(self.grid)
 
 
 def labels(inputs: int) -> list[Label]:
@@ -131,7 +114,7 @@ def indices(
     if half_widths is not None:
         trends = [] if inputs is None else [ranks(column) for column in np.moveaxis(inputs, -1, 0)]
         grid = _of_grid(filled, np.nan_to_num(half_widths), trends, additive, estimate)
-    return Indices(estimate, sampling, grid, least, most)
+    return Indices(sampling, grid, least, most, estimate=estimate)
 
 
 def _moments(outputs: Interval, sums: np.ndarray) -> Interval:
