@@ -8,7 +8,7 @@ from snakemake.exceptions import WorkflowError
 from subslide import catalogue, checksums, source_hash, tables
 from subslide.keys.schema import ConfigError
 from subslide.keys.words import printable
-from subslide.study import asked, locks, plan, progress, staging
+from subslide.study import asked, locks, numbering, plan, progress, staging
 from subslide.study.config import make_study
 from subslide.tables._write import remove as remove_table
 
@@ -89,6 +89,7 @@ onstart:
             handler.addFilter(REPORTER.shows)
             REPORTER.start()
     locks.sign(HOME)
+    numbering.keep(RESULTS, PLAN.next_run)
     staging.tidy(
         RESULTS, STAGED, map(Path, [*RECORDS, *SEALED_TABLES, *SEALED_FIGURES, *rules.report.output])
     )

@@ -1,5 +1,6 @@
 """Runs made up without a solver, so that files and tables are tested apart from numerics."""
 
+import json
 import signal
 from pathlib import Path
 
@@ -86,6 +87,7 @@ def solve_study():
                     str(plan.record_path(folder, name)),
                     str(folder / "batches" / f"{name}.json"),
                     study.keep,
+                    json.loads(batch.text)["first_run"],
                 )
         write_text(folder / "points.json", planned.points_text)
         seal(folder / "points.json")

@@ -27,7 +27,7 @@ COMPRESSED_FROM = {False: 1 << 16, True: 1 << 12}
 numbers are rounded and whose texts are mostly alike, much less is left."""
 
 
-def write(path: Path | str, runs: list["Run"], keep: str = "all") -> None:
+def write(path: Path | str, runs: list["Run"], keep: str = "all", first: int = 0) -> None:
     """Write the record of runs, read back and verified.
 
     Parameters
@@ -38,13 +38,15 @@ def write(path: Path | str, runs: list["Run"], keep: str = "all") -> None:
         Results of `solver.solve`, as `records.thinning.kept` gives them.
     keep
         What is kept of each, one of `subslide.keys.kept.WORDS`, which the record states.
+    first
+        Number of the first run within its study; the others follow.
 
     Raises
     ------
     RecordError
         If what was read back is not what was written.
     """
-    variables = layout.variables(runs)
+    variables = layout.variables(runs, first)
     attrs = provenance.attributes(runs, variables, keep)
     attrs[CHECKSUM] = digest(variables, attrs)
     with replacing(path) as temporary:
@@ -155,26 +157,28 @@ def _attrs_text(attrs: dict) -> bytes:
 
 
 def _store(path: Path, variables: dict[str, Variable], attrs: dict, small: bool) -> None:
-    """Write variables and attributes to a NetCDF file, small: texts as tables of characters."""
+    """Write variables and attributes to a NetCDF file; texts as tables of characters, as the classic model has them.
+
+    small: whether little is left of what is compressed.
+    """
     with netCDF4.Dataset(os.fspath(path), "w", format="NETCDF4") as data:
         data.set_auto_chartostring(False)
         for name, variable in variables.items():
             dims, values, about = variable.dims, variable.values, dict(variable.attrs)
-            if small and values.dtype.kind == "O":
+            if values.dtype.kind == "O":
                 texts = np.strings.encode(values.astype(str), "utf-8")
-                dims = (*dims, f"length_{texts.itemsize}")
+                dims = (*dims, f"{name}_length")  # one of its own: libraries that join files let it grow
                 values = texts.view("S1").reshape(*texts.shape, texts.itemsize)
                 about[ENCODING] = "utf-8"
             for dim, size in zip(dims, values.shape, strict=True):
                 if dim not in data.dimensions:
                     data.createDimension(dim, size)
-            text = values.dtype.kind == "O"
             target = data.createVariable(
                 name,
-                str if text else values.dtype,
+                values.dtype,
                 dims,
                 fill_value=about.pop("_FillValue", None),
-                compression="zlib" if not text and values.nbytes >= COMPRESSED_FROM[small] else None,
+                compression="zlib" if values.nbytes >= COMPRESSED_FROM[small] else None,
                 complevel=1,
             )
             target.setncatts(about)
