@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from subslide import naming, points
+from subslide.keys import measured
 from subslide.keys.entries import ENTRIES
-from subslide.records import scalars
+from subslide.records import asked, scalars
 
 if TYPE_CHECKING:
     from subslide.solver.run import Run
@@ -21,7 +22,7 @@ class Variable(NamedTuple):
     attrs: dict[str, Any]
 
 
-ASKED_ALONE = ("model", "grid", "snapshot_times", "fields")
+ASKED_ALONE = ("model", "grid", "snapshot_times", *measured.ENTRIES)
 """Keys of a run that are no variables: what came of them is told by others."""
 
 PARAMETERS = tuple(key for key in points.RUN_KEYS if key not in ("scene_options", *ASKED_ALONE))
@@ -37,8 +38,8 @@ WORDS = {
 }
 """Texts that a run says of itself, by name, and their meaning."""
 
-BESIDE = {"step": "time", "snapshot": "snapshot_time", "cell": "x"}
-"""Variable that holds the places along a dimension."""
+BESIDE = {"step": "time", "snapshot": "snapshot_time", "cell": "x", "gauge": "gauge_x gauge_y"}
+"""Variables that hold the places along a dimension."""
 
 
 def variables(runs: list["Run"]) -> dict[str, Variable]:
@@ -70,11 +71,13 @@ def variables(runs: list["Run"]) -> dict[str, Variable]:
     if places:
         record["x"].attrs["axis"] = "X"
         record.update(_profiles(runs, inside, places["x"].dims[-1]))
+    for name, (dims, values) in asked.arrays(runs, inside, places["x"].dims[-1] if places else "x").items():
+        record[name] = _variable(name, values, dims)
     for name, variable in record.items():
         if variable.dims[:1] == ("run",) and name != "id":
-            beside = [BESIDE[dim] for dim in variable.dims if BESIDE.get(dim, name) != name]
+            beside = [BESIDE[dim] for dim in variable.dims if name not in BESIDE.get(dim, name).split()]
             variable.attrs["coordinates"] = " ".join(["id", *beside])
-    if any(name in record for name in naming.FIELDS_2D):
+    if any("y" in variable.dims for variable in record.values()):
         record["y"] = _variable("y", places["x"].values)
         record["y"].attrs["axis"] = "Y"
     return record
@@ -125,7 +128,8 @@ def _shared_grid(runs: list["Run"]) -> tuple[list[slice], dict[str, Variable]] |
 
 def _grids_apart(runs: list["Run"]) -> tuple[list[slice], dict[str, Variable]]:
     """Return where each run's cells lie along the dimension `cell`, and their centres and widths at each snapshot."""
-    if any(getattr(run, name) is not None for run in runs for name in naming.FIELDS_2D):
+    whole = {name for name, about in naming.NAMES.items() if "y" in about.dims}
+    if any(run.measured.get(name, getattr(run, name, None)) is not None for run in runs for name in whole):
         raise ValueError(
             "runs that keep fields over the plane need one cell size for all runs of their record"
         )
