@@ -54,6 +54,9 @@ def point_of(path: str | None, options: dict[str, str]) -> Point:
         names[key] = "--" + key.replace("_", "-")
         if key == "scene_options" and isinstance(text, str):
             values[key] = scene_options.of_text(text, functools.partial(_value_of_text, name=names[key]))
+        elif schema.properties()[key].get("type") == "array" and isinstance(text, str):
+            places = [_value_of_text(part, names[key]) for part in text.split(";")]
+            values[key] = [place if isinstance(place, list) else [place] for place in places]
         else:
             values[key] = _value_of_text(text, names[key])
     if isinstance(values.get("snapshot_times"), int | float):

@@ -90,6 +90,70 @@ FIELDS_2D = {
     "eta_field": Name("η", ("run", "snapshot", "y", "x"), "m", "displacement of the water surface"),
 }
 
+AT_GAUGE = ("run", "gauge", "step")
+GAUGES = {
+    "gauge_eta": Name(
+        "η", AT_GAUGE, "m", "displacement of the water surface at each of the gauges asked for"
+    ),
+    "gauge_h2": Name("h2", AT_GAUGE, "m", "depth of grains there"),
+    "gauge_u1": Name("u1", AT_GAUGE, "m s-1", "velocity of water there along x"),
+    "gauge_v1": Name("v1", AT_GAUGE, "m s-1", "velocity of water there along y"),
+    "gauge_u2": Name("u2", AT_GAUGE, "m s-1", "velocity of grains there along x"),
+    "gauge_v2": Name("v2", AT_GAUGE, "m s-1", "velocity of grains there along y"),
+}
+
+ARRIVAL = FRONT_THRESHOLDS[0]
+"""Depth of grains, and displacement of the surface, over H2, from which on they have arrived in a cell."""
+
+LARGEST = {
+    "largest_h2": Name("h2", ("run", "x"), "m", "largest depth of grains in the cell at any step"),
+    "largest_abs_eta": Name(
+        "|η|",
+        ("run", "x"),
+        "m",
+        "largest displacement of the water surface in the cell, up or down, at any step",
+    ),
+    "arrival_h2": Name(
+        "t",
+        ("run", "x"),
+        "s",
+        f"time of the first step at which h2 of the cell is {100 * ARRIVAL:g} % of H2 or more; missing if it never is",
+    ),
+    "arrival_eta": Name(
+        "t",
+        ("run", "x"),
+        "s",
+        f"time of the first step at which |eta| of the cell is {100 * ARRIVAL:g} % of H2 or more; missing if it never"
+        " is",
+    ),
+}
+FOOTPRINTS = LARGEST | {
+    f"{name}_field": about._replace(dims=("run", "y", "x")) for name, about in LARGEST.items()
+}
+"""Footprints of a radius or line, by cell along x, and of the plane, where they are called fields."""
+
+RUNOUT = {
+    "runout": Name(
+        "L",
+        ("run", "front_threshold", "direction"),
+        "m",
+        "runout of the deposit: distance from the axis to the farthest point in that direction where h2 exceeds the"
+        " threshold at the end of the run, bilinear between cell centres; along x it is L_f; missing as L_f is",
+    ),
+    "runout_max": Name("L_max", ("run", "front_threshold"), "m", "largest of these runouts"),
+    "runout_max_direction": Name(
+        "", ("run", "front_threshold"), "degree", "direction of the largest, the first from the x axis on"
+    ),
+    "deposit_area": Name(
+        "A", ("run", "front_threshold"), "m2", "area where h2 exceeds the threshold at the end of the run"
+    ),
+    "deposit_x": Name("x", ("run",), "m", "centroid of the volume of grains at the end of the run, along x"),
+    "deposit_y": Name("y", ("run",), "m", "centroid of the volume of grains at the end of the run, along y"),
+}
+
+MEASURED = GAUGES | FOOTPRINTS | RUNOUT
+"""Quantities of runs that ask for them by keys of their own, see `keys.measured`."""
+
 SCALARS = {
     "L_f": Name(
         "L_f",
@@ -144,9 +208,12 @@ COORDINATES = {
     ),
     "time": Name("t", STEP, "s", "elapsed time since release"),
     "snapshot_time": Name("t", ("run", "snapshot"), "s", "elapsed time of the profile"),
+    "gauge_x": Name("x", ("run", "gauge"), "m", "place of the gauge along x"),
+    "gauge_y": Name("y", ("run", "gauge"), "m", "place of the gauge along y"),
+    "direction": Name("", ("direction",), "degree", "direction of runout, anticlockwise from the x axis"),
 }
 
-NAMES = {**SERIES, **PROFILES, **FIELDS_2D, **SCALARS, **COORDINATES}
+NAMES = {**SERIES, **PROFILES, **FIELDS_2D, **SCALARS, **MEASURED, **COORDINATES}
 """Every quantity of a record by name, but for the keys of its runs, which `subslide.keys` describes."""
 
 FRONT_LABELS = {f"{100 * fraction:g}pc": n for n, fraction in enumerate(FRONT_THRESHOLDS)}

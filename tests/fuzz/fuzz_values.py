@@ -88,11 +88,9 @@ DIVISORS = ("a_2", "radius", "g", "cfl")
 def kinds_of(key: str) -> Iterator[tuple[str, str]]:
     """YAML of hostile values of a key, and how a study with each ends."""
     about = ENTRIES[key]
-    listed = key in ("figures", "snapshot_times", "cases")
+    listed = key in ("figures", "snapshot_times", "gauges", "cases")
     for text in NOT_A_VALUE:
-        if (key in ("scene_options", "cases") and text == "{}") or (key == "snapshot_times" and text == "[]"):
-            continue
-        if key == "figures" and text == "[]":
+        if text == {"scene_options": "{}", "cases": "{}"}.get(key, "[]" if listed else ""):
             continue
         if key == "study" and text in (
             "1__0",

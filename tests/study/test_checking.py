@@ -20,7 +20,19 @@ WRONG = {
     "scene": ("x", "../x", 3, None),
     "scene_options": ((("x", 1.0),), 3, None, "ab", (("a", 1, 2),)),
     "snapshot_times": ((-1.0,), 3.0, "abc", ("0.1",), (float("nan"),), tuple(range(1001))),
-    "fields": ("false", 1, None, True),
+    "fields": ("false", 1, None),
+    "gauges": (
+        3.0,
+        "abc",
+        (0.1, 0.0),
+        ((0.1,),),
+        [[0.1, 0.0]],
+        ([0.1, 0.0],),
+        ((float("nan"), 0.0),),
+        ((0.31, 0.0),),
+    ),
+    "runout_directions": (-1, 3601, 0.5, "4", None),
+    "footprints": ("true", 1, None),
     "model": ("one-layer", "line"),
 }
 

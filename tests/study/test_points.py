@@ -13,7 +13,13 @@ from subslide.keys import schema
 from subslide.points import Point
 from subslide.study import config
 
-OTHER = {"scene": "other", "scene_options": (("name", 1.0),), "t_end": 1.0, "snapshot_times": (0.0,)}
+OTHER = {
+    "scene": "other",
+    "scene_options": (("name", 1.0),),
+    "t_end": 1.0,
+    "snapshot_times": (0.0,),
+    "gauges": ((0.1, 0.0),),
+}
 """Values that are not the default, of keys whose entry does not tell another."""
 
 PINNED = (

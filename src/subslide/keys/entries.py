@@ -18,7 +18,7 @@ from collections.abc import Callable
 from typing import Any
 
 from subslide import catalogue
-from subslide.keys import designs, kept, names
+from subslide.keys import designs, kept, measured, names
 
 Entry = dict[str, Any]
 
@@ -300,11 +300,6 @@ ENTRIES: dict[str, Entry] = {
         "default": "paper",
         "unit": "s",
     },
-    "fields": {
-        "role": OUTPUT,
-        "description": "keep h2 and eta over the plane at each snapshot (plane models only)",
-        "type": "boolean",
-        "default": False,
-    },
+    **{key: {"role": OUTPUT, **about} for key, about in measured.ENTRIES.items()},
 }
 """Entry of each key by name."""

@@ -36,7 +36,7 @@ LEAVING = ("open", "paper")
 KNOWN_AS = {"boundary": {"open": "sea"}}
 """Words that ids have for values which once meant something else, by key: the zero gradient is `paper` now."""
 
-LATER = {"grid": "uniform"}
+LATER = {"grid": "uniform", "gauges": (), "runout_directions": 0, "footprints": False}
 """Keys that were not there from the start, by the value that all runs had until then: ids leave it out."""
 
 MODELS = {"one-layer": LEAN, "radial": LEAN, "line": LEAN, "quarter": LEAN, "plane": LEAN}

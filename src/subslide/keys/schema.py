@@ -159,6 +159,7 @@ def _check(about: Entry) -> Callable:
 
 
 def _finite(value: Any) -> bool:
-    """Return whether a value, or each of a list, is finite where it is a number."""
+    """Return whether a value, or each of a list, and of lists in it, is finite where it is a number."""
     values = value if isinstance(value, list) else [value]
-    return all(not isinstance(v, float) or math.isfinite(v) for v in values)
+    inner = (v for part in values for v in (part if isinstance(part, list) else [part]))
+    return all(not isinstance(v, float) or math.isfinite(v) for v in inner)

@@ -55,6 +55,8 @@ def held(key: str, value: Any) -> Any:
         return tuple(sorted(value.items()))
     if key == "snapshot_times":
         return tuple(sorted({float(t) for t in value}))
+    if key == "gauges":
+        return tuple(tuple(map(float, place)) for place in value)
     if key in FLOATS:
         return float(value)
     return int(value) if key in INTEGERS else value
@@ -81,6 +83,8 @@ def stated(key: str, value: Any) -> Any:
         return dict(value)
     if key == "snapshot_times":
         return [float(t) + 0.0 for t in value]
+    if key == "gauges":
+        return [[x + 0.0, y + 0.0] for x, y in value]
     return float(value) + 0.0 if key in FLOATS else value  # -0.0 becomes 0.0
 
 

@@ -182,6 +182,8 @@ def metavar(key: str) -> str:
         return "|".join(map(str, about["enum"]))
     if about.get("type") == "object":
         return "NAME=VALUE,..."
+    if about.get("type") == "array":
+        return "X,Y;..."
     listed = "".join(f"{name}|" for name in choices(about))
     by_unit = {"degree": "DEG", "s": "S"}.get(about.get("unit", ""), "F")
     letter = "N" if about.get("type") == "integer" else by_unit

@@ -33,6 +33,21 @@ Fronts are sampled at each step, volumes, energy and hyperbolicity at every eigh
 between. `Results.record` gives a fitted run `x(snapshot, cell)` and `cell_width`, a uniform one `x(x)`
 whatever else is in its file; `subslide.results.positions(record, snapshot)` the positions of either.
 
+What a run is asked for by keys of its own is there where a run of the file has it, and missing of the others. A gauge
+is linear between centres of cells, in the plane between four: along x it sees what the profiles show, elsewhere what
+fields do. On a radius it stands at its distance from the axis, and velocities are parts of the radial one; a quarter is
+mirrored. Between snapshots friction of grains is half a step ahead of the sample (it is even at each snapshot). Runout
+is taken along rays from the axis, with a point between cells as the front has it, so that along x it is `L_f`; the
+points (`runout` cos `direction`, `runout` sin `direction`) are the outline of a deposit that each ray leaves once:
+
+```python
+angle = np.deg2rad(record["direction"])
+outline = record["runout"][0] * np.cos(angle), record["runout"][0] * np.sin(angle)  # 1 % of H2
+```
+
+Footprints are of the run's steps, the start among them: in a cell whose `arrival_h2` is missing h2 never was 1 % of H2.
+`keep: series` keeps gauges and runout, `summary` runout alone.
+
 The attribute `keep` says what a record holds beside the numbers of each run, which follow from all of its samples in
 any case. `all`: series and profiles. `series`: no profiles. `summary`: of {summary} the samples between which
 straight lines pass those of every step within {share:g} of the range of the series (or {least:g} of its largest size),
@@ -64,6 +79,9 @@ def variables() -> str:
         "Series, a sample each time step": naming.SERIES,
         "Profiles along the x axis, at each snapshot": naming.PROFILES,
         "Fields, at each snapshot (`fields: true`, in the plane)": naming.FIELDS_2D,
+        "At gauges, a sample each time step (`gauges`)": naming.GAUGES,
+        "Footprints: of each cell over all steps (`footprints: true`)": naming.FOOTPRINTS,
+        "Runout by direction, at the end of the run (`runout_directions`)": naming.RUNOUT,
         "A value a run": naming.SCALARS | scalars.NAMES,
         "Coordinates": naming.COORDINATES,
     }

@@ -60,6 +60,8 @@ def kept(run: "Run", keep: str) -> "Run":
     snapshots, none = len(run.snapshot_time), np.empty(0)
     short.x, short.h2, short.eta = none, np.empty((snapshots, 0)), np.empty((snapshots, 0))
     short.width = short.h2_diagonal = short.h2_field = short.eta_field = None
+    dropped = naming.FOOTPRINTS if keep == "series" else naming.FOOTPRINTS | naming.GAUGES
+    short.measured = {name: values for name, values in run.measured.items() if name not in dropped}
     return thinned(short) if keep == "series" else _summary(short)
 
 
@@ -121,6 +123,8 @@ def thinned(run: "Run") -> "Run":
     stays = places(np.nan_to_num(series, posinf=np.inf, neginf=-np.inf))
     short = copy.copy(run)
     _replace(short, run.time[stays], {name: getattr(run, name)[..., stays] for name in naming.SERIES})
+    at_gauges = {name: run.measured[name][:, stays] for name in naming.GAUGES if name in run.measured}
+    short.measured = run.measured | at_gauges
     return short
 
 

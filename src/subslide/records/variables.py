@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from subslide import naming, points
+from subslide.keys import measured
 from subslide.keys.entries import ENTRIES
-from subslide.records import options, scalars
+from subslide.records import measures, options, scalars
 
 if TYPE_CHECKING:
     from subslide.solver.run import Run
@@ -21,7 +22,7 @@ class Variable(NamedTuple):
     attrs: dict[str, Any]
 
 
-ASKED_ALONE = ("model", "grid", "snapshot_times", "fields")
+ASKED_ALONE = ("model", "grid", "snapshot_times", *measured.ENTRIES)
 """Keys of a run that are no variables: what came of them is told by others."""
 
 PARAMETERS = tuple(key for key in points.RUN_KEYS if key not in ("scene_options", *ASKED_ALONE))
@@ -40,8 +41,8 @@ WORDS = {
 SOLVED = ("model", "grid")
 """Those that stand for a key of the study."""
 
-BESIDE = {"step": "time", "snapshot": "snapshot_time", "cell": "x"}
-"""Variable that holds the places along a dimension."""
+BESIDE = {"step": "time", "snapshot": "snapshot_time", "cell": "x", "gauge": "gauge_x gauge_y"}
+"""Variables that hold the places along a dimension."""
 
 
 SELECTING = ("id", "a_H", "a_2", "r", "delta")
@@ -78,20 +79,22 @@ def variables(runs: list["Run"], first: int = 0) -> dict[str, Variable]:
         "front_threshold": _variable("front_threshold", np.array(naming.FRONT_THRESHOLDS)),
         **places,
     }
-    asked = _asked(runs)
-    record |= asked | _scalars(runs)
+    stated = _asked(runs)
+    record |= stated | _scalars(runs)
     for name in ("time", *(name for name in naming.SERIES if hasattr(runs[0], name))):
         record[name] = _variable(name, _padded([getattr(run, name) for run in runs]))
     record["snapshot_time"] = _variable("snapshot_time", _padded([run.snapshot_time for run in runs]))
     if places:
         record["x"].attrs["axis"] = "X"
         record.update(_profiles(runs, inside, places["x"].dims[-1]))
+    for name, (dims, values) in measures.arrays(runs, inside, places["x"].dims[-1] if places else "x").items():
+        record[name] = _variable(name, values, dims)
     for name, variable in record.items():
-        if variable.dims[:1] == ("run",) and name not in ("run", *asked):
-            beside = [BESIDE[dim] for dim in variable.dims if BESIDE.get(dim, name) != name]
-            chosen = [key for key in (asked if name == "status" else SELECTING) if key in asked]
+        if variable.dims[:1] == ("run",) and name not in ("run", *stated):
+            beside = [BESIDE[dim] for dim in variable.dims if name not in BESIDE.get(dim, name).split()]
+            chosen = [key for key in (stated if name == "status" else SELECTING) if key in stated]
             variable.attrs["coordinates"] = " ".join([*chosen, *beside])
-    for dim in ("step", "snapshot", "cell"):
+    for dim in ("step", "snapshot", "cell", "gauge"):
         sizes = [
             variable.values.shape[variable.dims.index(dim)]
             for variable in record.values()
@@ -99,7 +102,7 @@ def variables(runs: list["Run"], first: int = 0) -> dict[str, Variable]:
         ]
         if sizes:
             record[dim] = _numbers(dim, sizes[0])
-    if any(name in record for name in naming.FIELDS_2D):
+    if any("y" in variable.dims for variable in record.values()):
         record["y"] = _variable("y", places["x"].values)
         record["y"].attrs["axis"] = "Y"
     return record
@@ -165,7 +168,8 @@ def _shared_grid(runs: list["Run"]) -> tuple[list[slice], dict[str, Variable]] |
 
 def _grids_apart(runs: list["Run"]) -> tuple[list[slice], dict[str, Variable]]:
     """Return where each run's cells lie along the dimension `cell`, and their centres and widths at each snapshot."""
-    if any(getattr(run, name) is not None for run in runs for name in naming.FIELDS_2D):
+    whole = {name for name, about in naming.NAMES.items() if "y" in about.dims}
+    if any(run.measured.get(name, getattr(run, name, None)) is not None for run in runs for name in whole):
         raise ValueError(
             "runs that keep fields over the plane need one cell size for all runs of their record"
         )

@@ -13,6 +13,7 @@ from subslide.points import Point
 from subslide.solver.answer import describe, make_run, room_for_waves
 from subslide.solver.checkpoint import Keeper, Saved
 from subslide.solver.loop import Samples, advance_to, start_threads, warm_up
+from subslide.solver.observing import Watchers
 from subslide.solver.run import Run
 from subslide.solver.snapshots import Snapshot, taken
 from subslide.study import choice
@@ -149,21 +150,26 @@ def attempt(
     kept = Samples()
     snapshots: list[Snapshot] = []
     wall = 0.0
+    watchers = Watchers(point, model, profiles)
+    watchers.observe(model, 0, 0.0)
     if saved:
         model.resume(saved.model)
+        watchers.resume(saved.model)
         clock, wall, snapshots = saved.clock, saved.wall, saved.snapshots
         kept = Samples(saved.samples)
 
     def look(seconds: float) -> None:
         """Show how far the run has come, and save it if that is due."""
+        watchers.observe(model, len(kept.taken) - 1, float(clock[k.NOW]))
         if progress:
             progress(clock[k.NOW] * time_scale)
         if keeper and keeper.due:
-            keeper.save(point, Saved(box, model.state(), clock, kept.taken, snapshots, wall + seconds))
+            state = model.state() | watchers.state()
+            keeper.save(point, Saved(box, state, clock, kept.taken, snapshots, wall + seconds))
 
     for stop in sorted({*times, end})[len(snapshots) :]:
         clock[k.STOP] = stop / time_scale
-        outcome, seconds = advance_to(model, clock, kept, look)
+        outcome, seconds = advance_to(model, clock, kept, look, bool(watchers.present))
         wall += seconds
         reached = clock[k.NOW] >= clock[k.STOP]
         if reached and stop in times:
@@ -177,5 +183,6 @@ def attempt(
     status = ENDED.get(outcome, "ok" if point.t_end is not None else "not_at_rest")
     detail = "" if status == "ok" else describe(status, model, sampled, time_scale)
     run = make_run(point, model, sampled, snapshots, (status, detail), wall, clock, room)
+    run.measured = watchers.measured(run, model)
     model.release()
     return run

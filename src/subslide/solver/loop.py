@@ -131,7 +131,7 @@ class Samples:
 
 
 def advance_to(
-    model: Model, clock: np.ndarray, kept: Samples, look: Callable[[float], object]
+    model: Model, clock: np.ndarray, kept: Samples, look: Callable[[float], object], stepwise: bool = False
 ) -> tuple[int, float]:
     """Run the loop until it ends, and keep its samples.
 
@@ -146,6 +146,8 @@ def advance_to(
     look
         Function that is called now and then with the seconds that this loop has taken, when model, clock and samples
         are what it can go on from.
+    stepwise
+        Whether it is called after each step, which changes no answer.
 
     Returns
     -------
@@ -155,7 +157,7 @@ def advance_to(
     wall, step = 0.0, model.cells.h1.size / CELLS_A_SECOND
     depths = thresholds(model)
     while True:
-        most = int(max(FEWEST, min(CHUNK, LAUNCH / max(step, 1e-9))))
+        most = 2 if stepwise else int(max(FEWEST, min(CHUNK, LAUNCH / max(step, 1e-9))))
         track = kept.track(clock, most)
         first = int(track.counters[k.SAMPLES])
         started = time.perf_counter()

@@ -1,6 +1,6 @@
 """What a run answers."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -48,6 +48,8 @@ class Run:
         Widths (snapshots, cells) in m of the cells of a fitted grid, whose edges move; None on a uniform one.
     scalars
         What `records.scalars` made of the samples, by name; None before it is asked for.
+    measured
+        What the point asks for beside all that, by its names in `naming.MEASURED`, such as gauges (gauges, samples).
     grid, grid_reason
         Grid that was solved on, `uniform` or `fitted`, and why, in words.
     """
@@ -76,8 +78,14 @@ class Run:
     box_half_width: float
     width: np.ndarray | None = None
     scalars: dict[str, float] | None = None
+    measured: dict[str, np.ndarray] = field(default_factory=dict)
     grid: str = "uniform"
     grid_reason: str = "asked for"
+
+    @property
+    def directions(self) -> np.ndarray:
+        """Directions (degree) of `runout`, at equal angles from the x axis on: the same number for the same one."""
+        return 360.0 * np.arange(self.point.runout_directions) / max(1, self.point.runout_directions)
 
     def __getattr__(self, name: str) -> np.ndarray:
         """Return the series of that name."""

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from subslide.keys import kept, words
+from subslide.keys import kept, measured, words
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
 from subslide.study import choice, cost, numbering, pace, rows
@@ -171,7 +171,9 @@ def split(points: Sequence[Point], sharing: Sharing = ALONE) -> list[list[Point]
     groups: dict[tuple, list[Point]] = {}
     for point in points:
         size = 0.0 if sharing.keep != "all" or choice.is_fitted(point) else point.dx
-        groups.setdefault((choice.kernels(point), size, point.fields), []).append(point)
+        groups.setdefault(
+            (choice.kernels(point), size, *(getattr(point, key) for key in measured.ENTRIES)), []
+        ).append(point)
     costs = {name: [sharing.cost(point) for point in group] for name, group in groups.items()}
     even = sum(map(sum, costs.values())) / sharing.cores
     target = min(max(even if len(groups) == 1 else even / 2, LEAST), sharing.seconds)

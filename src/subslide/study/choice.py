@@ -18,6 +18,9 @@ EXACT = {
 }
 """Models that give the answer for scenes of each symmetry, the cheapest first."""
 
+PLANE = ("quarter", "plane")
+"""Models, and geometries, of the plane."""
+
 WORDS = {
     "round": "round scene",
     "line": "scene on a line",
@@ -76,7 +79,11 @@ def _choice(point: Point) -> Choice:
         models = exact_models(point)
         if point.quantities != "grains":
             models = tuple(name for name in models if name != "one-layer")
-        model, reason = models[0], f"auto: {WORDS[symmetry]}"
+        reason = f"auto: {WORDS[symmetry]}"
+        if point.fields and set(models) & set(PLANE):
+            models = tuple(name for name in models if name in PLANE)
+            reason += ", fields asked for" if EXACT[symmetry][0] not in PLANE else ""
+        model = models[0]
         if model == "one-layer":
             reason += ", r = 0 and grains alone asked for"
     general = any(getattr(point, key) not in known for key, known in LEAN.items())
@@ -105,6 +112,9 @@ def unfit(point: Point, geometry: str) -> str:
         return "the model is of the plane"
     if point.boundary != "open":
         return f"the boundary is {point.boundary}, not open"
+    for key in ("gauges", "footprints"):
+        if getattr(point, key):
+            return f"{key} are asked for"
     if point.as_printed != "none":
         return "a formula is taken as printed"  # its friction blows up on some columns
     return ""

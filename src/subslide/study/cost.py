@@ -57,8 +57,10 @@ PROCESS = 250e6
 """Bytes of a process that has loaded its kernels (180e6), and some; compiling them takes up to 1e9 (`jobs.warm`)."""
 ARRAYS, AXIAL_ARRAYS = 44, 80
 """Numbers of the working precision that the solver keeps of each cell of the plane, and of a line or radius."""
-SERIES = 12
-"""Numbers of 8 bytes that a sample has."""
+SERIES, AT_GAUGE = 12, 6
+"""Numbers of 8 bytes that a sample has, and that it has at each gauge."""
+FOOTPRINT = 4
+"""Numbers that footprints keep of each cell."""
 MOST_SAMPLES = 10_000
 """Samples of a run that a record keeps."""
 COPIES = 4
@@ -123,8 +125,9 @@ def of(point: Point) -> Cost:
     if known is None:
         size = _size(point)
         fields = 2 * KEPT_BYTES * size.cells if point.fields else 0
-        series = 8 * SERIES * min(size.steps, MOST_SAMPLES)
+        series = 8 * (SERIES + AT_GAUGE * len(point.gauges)) * min(size.steps, MOST_SAMPLES)
         profiles = _snapshots(point) * (8 * 3 * size.row + fields)
+        profiles += FOOTPRINT * KEPT_BYTES * size.cells if point.footprints else 0
         known = Cost(_seconds(point, size), _memory(point, size), series, profiles)
         vars(point)[COST] = known
     return known
@@ -235,11 +238,13 @@ def _memory(point: Point, size: _Size) -> float:
     real = 4 if point.dtype == "float32" else 8
     arrays = (ARRAYS if size.kind == "planar" else AXIAL_ARRAYS) * real * size.cells
     fields = 2 * FIELD_BYTES * size.cells * _snapshots(point) if point.fields else 0
+    footprints = FOOTPRINT * 8 * size.cells if point.footprints else 0
     return (
         PROCESS
         + arrays
         + fields
-        + COPIES * 8 * SERIES * size.steps
+        + footprints
+        + COPIES * 8 * (SERIES + AT_GAUGE * len(point.gauges)) * size.steps
         + 8 * 3 * 4 * size.row * _snapshots(point)
     )
 

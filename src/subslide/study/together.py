@@ -1,5 +1,7 @@
 """Whether the values of a point, each allowed, go with one another."""
 
+import math
+
 from subslide import scenes
 from subslide.keys import words
 from subslide.keys.schema import ConfigError
@@ -8,10 +10,12 @@ from subslide.study import choice
 from subslide.study.remembering import Remembered
 
 MOST_PLANE_CELLS = 10_000
-PLANE = ("quarter", "plane")
 GEOMETRIES = {
-    ("fields", True): PLANE,
-    ("as_printed", "upwinding"): PLANE,  # of tangential momentum, which a line or a radius does not have
+    ("fields", True): choice.PLANE,
+    (
+        "as_printed",
+        "upwinding",
+    ): choice.PLANE,  # of tangential momentum, which a line or a radius does not have
     ("boundary", "periodic"): ("line", "plane"),
 }
 """Geometries to which a value of a key is limited."""
@@ -47,12 +51,30 @@ def check(point: Point) -> None:
                 f"{key}: {words.show(value)} is not allowed with model: {model} ({reason});"
                 f" allowed: {', '.join(geometries)}"
             )
+    if point.runout_directions and geometry == "line":
+        raise ConfigError(
+            f"runout_directions: {point.runout_directions} is not allowed with model: {model} ({reason}); allowed:"
+            " radial, quarter, plane"
+        )
+    _check_gauges(point, geometry)
     if point.grid == "fitted" and (unfit := choice.unfit(point, geometry)):
         raise ConfigError(f"grid: fitted is not allowed where {unfit}; allowed: uniform, or auto")
-    if geometry in PLANE and point.cells > MOST_PLANE_CELLS:
+    if geometry in choice.PLANE and point.cells > MOST_PLANE_CELLS:
         raise ConfigError(
             f"cells: {point.cells} is not allowed in the plane; allowed: at most {MOST_PLANE_CELLS}"
         )
+
+
+def _check_gauges(point: Point, geometry: str) -> None:
+    """Raise a ConfigError if a gauge lies outside the smallest box."""
+    for x, y in point.gauges:
+        half = point.half_box * point.radius
+        bounded = geometry == "radius" and not choice.at_sea(point)
+        if max(abs(x), abs(y), math.hypot(x, y) if bounded else 0.0) > half:
+            raise ConfigError(
+                f"gauges: {words.show([x, y])} lies outside the box; allowed: {'at' if bounded else 'x and y'} up to"
+                f" {half:.6g} m from the axis"
+            )
 
 
 def _check_single(point: Point) -> None:

@@ -98,6 +98,9 @@ SCALED = "tan(delta)/a_2: with a_H and r, all that the scaled answer depends on"
 WHOLE = "nonhyperbolic_cells_max"
 """Whole number, which records have as a float like the others."""
 
+UNTOLD = ("snapshot_times", "gauges", "runout_directions", "footprints")
+"""Keys without a column: what they ask for is in records alone."""
+
 MADE = tuple(name for name in scalars.NAMES if not name.startswith(("nonhyperbolic", "hyperbolic")))
 
 COLUMNS_OF_RUN = {
@@ -109,7 +112,7 @@ COLUMNS_OF_RUN = {
         "named set of numerics that the study asked for",
         lambda runs, values: [run.numerics for run in runs],
     ),
-    **{key: _asked(key) for key in RUN_KEYS if key != "snapshot_times"},
+    **{key: _asked(key) for key in RUN_KEYS if key not in UNTOLD},
     "m": Column("", SCALED, lambda runs, values: [run.point.friction_number for run in runs]),
     "resolved_model": _recorded("model", "", "geometry that was solved; `model` is what was asked for"),
     "resolved_grid": _recorded("grid", "", "grid that was solved on, `uniform` or `fitted`"),
