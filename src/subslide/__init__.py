@@ -8,6 +8,7 @@ from typing import Any
 
 from subslide import _early  # noqa: F401 - the first, since it hears signals while the others load
 from subslide._cache import set_cache_folder
+from subslide._sources import SNAKEFILE as SNAKEFILE
 from subslide._sources import source_hash
 
 __version__ = "0.1.0"
