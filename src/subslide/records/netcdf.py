@@ -44,12 +44,29 @@ def write(path: Path | str, runs: list["Run"], keep: str = "all") -> None:
     RecordError
         If what was read back is not what was written.
     """
-    variables = layout.variables(runs)
-    attrs = provenance.attributes(runs, variables, keep)
-    attrs[CHECKSUM] = digest(variables, attrs)
+    variables, attrs = contents(runs, keep)
     with replacing(path) as temporary:
         _store(temporary, variables, attrs, small=keep == "summary")
         read(temporary, names=())
+
+
+def contents(runs: list["Run"], keep: str = "all") -> tuple[dict[str, Variable], dict]:
+    """Return what `write` writes: variables by name and global attributes, the checksum among them.
+
+    Parameters
+    ----------
+    runs, keep
+        As for `write`.
+
+    Returns
+    -------
+    tuple of dict
+        Variables and attributes, as `read` gives them.
+    """
+    variables = layout.variables(runs)
+    attrs = provenance.attributes(runs, variables, keep)
+    attrs[CHECKSUM] = digest(variables, attrs)
+    return variables, attrs
 
 
 def read(path: Path | str, names: Collection[str] | None = None) -> tuple[dict[str, Variable], dict]:
