@@ -21,7 +21,7 @@ COMPILED = ("kernels", "naming.py", "keys/names.py")
 JUDGING = ("results", "exact", "laboratory", "sensitivity", "emulator", "tables")
 """Rooms after the records, which make tables of them."""
 
-SHOWING = ("figures", "pages", "commands", "__main__.py", "_early.py", "catalogue.py")
+SHOWING = ("figures", "pages", "commands", "library", "__main__.py", "_early.py", "catalogue.py")
 """Rooms that draw, describe or call what the others make: a change here changes no record and no table."""
 
 WRITERS = frozenset({"__init__", "_write"})

@@ -46,12 +46,29 @@ def write(path: Path | str, runs: list["Run"], keep: str = "all", first: int = 0
     RecordError
         If what was read back is not what was written.
     """
-    variables = layout.variables(runs, first)
-    attrs = provenance.attributes(runs, variables, keep)
-    attrs[CHECKSUM] = digest(variables, attrs)
+    variables, attrs = contents(runs, keep, first)
     with replacing(path) as temporary:
         _store(temporary, variables, attrs, small=keep == "summary")
         read(temporary, names=())
+
+
+def contents(runs: list["Run"], keep: str = "all", first: int = 0) -> tuple[dict[str, Variable], dict]:
+    """Return what `write` writes: variables by name and global attributes, the checksum among them.
+
+    Parameters
+    ----------
+    runs, keep, first
+        As for `write`.
+
+    Returns
+    -------
+    tuple of dict
+        Variables and attributes, as `read` gives them.
+    """
+    variables = layout.variables(runs, first)
+    attrs = provenance.attributes(runs, variables, keep)
+    attrs[CHECKSUM] = digest(variables, attrs)
+    return variables, attrs
 
 
 def read(path: Path | str, names: Collection[str] | None = None) -> tuple[dict[str, Variable], dict]:

@@ -32,9 +32,6 @@ COMPILING = "subslide: compiling the kernels of this model, once: about a minute
 WAITING = "subslide: waiting for another process that compiles the kernels of this model: about a minute"
 NOT_KEPT = "subslide: compiled kernels are not kept, so the next run compiles anew: "
 
-_threads: list[int] = []
-"""How many threads solve, once that has been said."""
-
 _loaded: set[tuple[type, ...]] = set()
 """Compiled code that this process has used."""
 
@@ -47,11 +44,10 @@ def thresholds(model: Model) -> tuple[float, ...]:
 
 def start_threads(threads: int) -> None:
     """Make this many threads solve, as far as numba has them; ConfigError if its threading layer cannot be used."""
-    if _threads == [threads]:
-        return
     try:
-        numba.set_num_threads(max(1, min(threads, numba.config.NUMBA_NUM_THREADS)))
-        _threads[:] = [threads]
+        wanted = max(1, min(threads, numba.config.NUMBA_NUM_THREADS))
+        if numba.get_num_threads() != wanted:
+            numba.set_num_threads(wanted)
     except (ImportError, RuntimeError, ValueError):
         layer = os.environ.get("NUMBA_THREADING_LAYER", "default")
         raise ConfigError(
