@@ -87,7 +87,9 @@ def variables(runs: list["Run"], first: int = 0) -> dict[str, Variable]:
     if places:
         record["x"].attrs["axis"] = "X"
         record.update(_profiles(runs, inside, places["x"].dims[-1]))
-    for name, (dims, values) in measures.arrays(runs, inside, places["x"].dims[-1] if places else "x").items():
+    for name, (dims, values) in measures.arrays(
+        runs, inside, places["x"].dims[-1] if places else "x"
+    ).items():
         record[name] = _variable(name, values, dims)
     for name, variable in record.items():
         if variable.dims[:1] == ("run",) and name not in ("run", *stated):
