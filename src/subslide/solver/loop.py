@@ -12,6 +12,7 @@ import numpy as np
 from subslide.kernels import cache, samples
 from subslide.kernels import clock as k
 from subslide.kernels.arrays import Track
+from subslide.kernels.jit import plain
 from subslide.keys.schema import ConfigError
 from subslide.models.model import Model
 from subslide.naming import FRONT_THRESHOLDS
@@ -34,6 +35,8 @@ NOT_KEPT = "subslide: compiled kernels are not kept, so the next run compiles an
 
 _loaded: set[tuple[type, ...]] = set()
 """Compiled code that this process has used."""
+
+goes_on = plain(k.goes_on)
 
 
 def thresholds(model: Model) -> tuple[float, ...]:
@@ -136,7 +139,7 @@ def advance_to(
     model
         What is run.
     clock
-        Scaled times, see `kernels.clock`; the loop moves it on.
+        Scaled times, see `kernels.clock`; the loop moves it on, past its stop if there are later ones.
     kept
         Gets the samples of this loop.
     look
@@ -164,5 +167,5 @@ def advance_to(
         look(wall)
         if outcome == k.NO_ROOM:
             model.make_room(float(clock[k.NOW]))
-        elif outcome != k.FULL:
+        elif outcome != k.FULL and not goes_on(clock, track.counters):
             return outcome, wall
