@@ -136,3 +136,20 @@ def signals_of_a_terminal():
 def root() -> Path:
     """Folder of the repository."""
     return Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="session")
+def trained():
+    """What 64 columns taught an emulator."""
+    from learned import columns, measured
+
+    from subslide.emulator import training
+
+    return training.learn(measured(columns(64)), {"study": "formulas"})
+
+
+@pytest.fixture
+def saved(trained, tmp_path):
+    """File of an emulator of 64 columns."""
+    trained.emulator.save(tmp_path / "emulator.json")
+    return tmp_path / "emulator.json"
