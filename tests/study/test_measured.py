@@ -108,3 +108,11 @@ def test_a_sweep_that_needs_the_plane_has_fields_throughout():
     run = solver.solve(study.points[0].with_values(**SHORT))
     assert run.h2_field.shape == (2, len(run.x), len(run.x))
     assert choice.of(Point(fields=False)).model == "radial"
+
+
+def test_a_large_study_with_gauges_keeps_their_series(monkeypatch):
+    monkeypatch.setattr(config, "MOST_KEPT_WHOLE", 2)
+    study = {"study": "t", "a_H": [1, 2, 3]}
+    assert config.make_study(study).keep == "summary"
+    assert config.make_study({**study, "gauges": [[0.1, 0]]}).keep == "series"
+    assert config.make_study({**study, "gauges": [[0.1, 0]], "keep": "summary"}).keep == "summary"
