@@ -47,6 +47,11 @@ def grids(draw):
         values["scene_options"] = {name: OPTIONS[name] for name in chosen}
     if draw(st.booleans()):
         values["snapshot_times"] = draw(st.lists(st.sampled_from([0, 0.1, 0.2]), max_size=2, unique=True))
+    if draw(st.booleans()):
+        values["gauges"] = draw(st.sampled_from([[], [[0.1, 0]], [[0.29, 0.29], [0, 0.2]]]))
+    for key, value in (("fields", True), ("runout_directions", 8), ("footprints", True)):
+        if draw(st.integers(0, 5)) == 0:
+            values[key] = value
     return values
 
 
@@ -59,7 +64,7 @@ def plain(values):
         elif key in values:
             listed = values[key] if schema.is_axis(key) and isinstance(values[key], list) else [values[key]]
             each = [schema.checked(key, value) for value in listed]
-            axes[key] = each if key == "snapshot_times" else list(dict.fromkeys(each))
+            axes[key] = each if key in ("snapshot_times", "gauges") else list(dict.fromkeys(each))
     runs = {}
     for combination in itertools.product(*axes.values()):
         one = dict(zip(axes, combination, strict=True))
@@ -84,8 +89,14 @@ def plain_id(point):
     values["scene_options"] = dict(point.scene_options)
     if values["boundary"] == "open":
         values["boundary"] = "sea"
-    if values["grid"] == "uniform":
-        del values["grid"]
+    for key, default in {
+        "grid": "uniform",
+        "gauges": (),
+        "runout_directions": 0,
+        "footprints": False,
+    }.items():
+        if values[key] == default:
+            del values[key]
     for name in catalogue.options_that_read(point.scene):
         values["scene_options"].pop(name, None)
     text = json.dumps(values, separators=(",", ":"), sort_keys=True)

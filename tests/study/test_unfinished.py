@@ -16,6 +16,7 @@ from subslide.solver import checkpoint, loop
 from subslide.solver.checkpoint import Keeper
 from subslide.study import batches, plan, staging
 
+WATCHED = {"gauges": ((0.1, 0.05), (0.0, 0.0)), "footprints": True, "runout_directions": 4}
 RUNS = {
     "radial, on a sea that grows": Point(cells=40, a_2=1.5, delta=20.0),
     "radial, float32": Point(cells=40, dtype="float32", snapshot_times=(0.0, 0.1, 0.2)),
@@ -24,6 +25,8 @@ RUNS = {
     "one layer": Point(cells=40, r=0.0, model="one-layer"),
     "a quarter": Point(cells=40, model="quarter", snapshot_times=(0.02, 0.2), fields=True, t_end=0.25),
     "the plane, first order": Point(cells=20, model="plane", order=1, snapshot_times=(0.1,), t_end=0.3),
+    "watched on a sea that grows": Point(cells=40, a_2=1.5, delta=20.0, **WATCHED),
+    "a watched quarter": Point(cells=40, model="quarter", snapshot_times=(), t_end=0.2, **WATCHED),
     "a line, its ends joined": Point(cells=40, scene="shear", boundary="periodic", t_end=0.3),
 }
 
@@ -79,7 +82,7 @@ def test_a_killed_run_goes_on_to_the_same_bits(name, tmp_path, saving):
 
 @pytest.mark.parametrize("keep", ["all", "summary"])
 def test_runs_that_ended_are_kept_to_the_bit(tmp_path, saving, keep):
-    points = [Point(cells=20, a_H=a_H, **more) for a_H in (1, 2) for more in ({}, {"boundary": "wall"})]
+    points = [Point(cells=20, a_H=a_H, **more) for a_H in (1, 2) for more in ({}, WATCHED)]
     runs = [jobs.solved(point, 1, keep=keep) for point in points]
     keeper = Keeper(tmp_path, "0001", points, keep)
     for run in runs:

@@ -6,7 +6,7 @@ WORDS = ("summary", "series", "all")
 ENTRY = {
     "description": "what records keep of each run: all; series (every sample of the series, no profiles); summary"
     " (numbers, and series thinned to the samples that keep each local extremum and 1e-3 of the curve); or auto (all of"
-    " a study of up to 2,000 solved points, else summary)",
+    " a study of up to 2,000 solved points, else summary, or series if it has gauges)",
     "enum": ["auto", *WORDS],
     "default": "auto",
 }

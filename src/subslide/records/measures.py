@@ -32,32 +32,35 @@ def arrays(runs: list["Run"], inside: Sequence[slice], dim: str) -> Arrays:
         Nothing where no run was asked for more than all are.
     """
     names = dict.fromkeys(name for run in runs for name in run.measured)
+    if not names:
+        return {}
     angles = np.unique(np.concatenate([run.directions for run in runs]))
-    places = [np.array(run.point.gauges).reshape(-1, 2) for run in runs]
-    gauges, samples = max(map(len, places)), max(len(run.time) for run in runs)
+    located = [np.array(run.point.gauges).reshape(-1, 2) for run in runs]
+    gauges, samples = max(map(len, located)), max(len(run.time) for run in runs)
     cells = max((part.stop for part in inside), default=0)
     sizes = {"gauge": gauges, "step": samples, "direction": len(angles), "x": cells, "y": cells}
     sizes["front_threshold"] = len(naming.FRONT_THRESHOLDS)
     made: Arrays = {}
     for name in names:
         dims = naming.NAMES[name].dims
-        kinds = [run.measured[name].dtype for run in runs if name in run.measured]
-        joined = np.full((len(runs), *(sizes[of] for of in dims[1:])), np.nan, kinds[0])
+        kind = next(run.measured[name].dtype for run in runs if name in run.measured)
+        joined = np.full((len(runs), *(sizes[of] for of in dims[1:])), np.nan, kind)
         for n, run in enumerate(runs):
             if name in run.measured:
-                values = run.measured[name]
-                along: dict[str, slice | np.ndarray] = {
-                    "x": inside[n] if inside else slice(0),
+                values, row = run.measured[name], joined[n, ...]
+                cells = inside[n] if inside else slice(0)
+                places: dict[str, slice | np.ndarray] = {
+                    "x": cells,
+                    "y": cells,
                     "direction": np.isin(angles, run.directions),
                 }
-                along["y"] = along["x"]
-                counts = zip(dims[1:], values.shape, strict=True)
-                joined[(n, *(along.get(of, slice(count)) for of, count in counts))] = values
+                along = zip(dims[1:], values.shape, strict=True)
+                row[tuple(places.get(of, slice(count)) for of, count in along)] = values
         made[name] = (*dims[:-1], dim if dims[-1] == "x" else dims[-1]), joined
     if gauges and "gauge_h2" in names:
         for axis, name in enumerate(("gauge_x", "gauge_y")):
             padded = np.full((len(runs), gauges), np.nan)
-            for row, place in zip(padded, places, strict=True):
+            for row, place in zip(padded, located, strict=True):
                 row[: len(place)] = place[:, axis]
             made[name] = ("run", "gauge"), padded
     if angles.size:

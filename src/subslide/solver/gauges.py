@@ -8,9 +8,6 @@ from subslide.models.model import Model
 from subslide.points import Point
 from subslide.study import choice
 
-PARTS = {"gauge_u1": ("u1", "v1"), "gauge_u2": ("u2", "v2")}
-"""Velocity along x, by the name of its series, and what models call its parts."""
-
 
 class Gauges:
     """Values at the gauges of a run, bilinear between centres of cells; what lies beyond the last centre has its value.
@@ -28,11 +25,11 @@ class Gauges:
         self.geometry = choice.of(point).geometry
         self.dx = point.scaled_dx
         self.x, self.y = np.array(point.gauges).T / point.radius
-        self.distance = np.hypot(self.x, self.y)
+        self.speeds = ("u1", "v1", "u2", "v2") if self.geometry in choice.PLANE else ("u1", "u1", "u2", "u2")
         self.rows: list[np.ndarray] = []
+        self._located = -1  # cells along x, for which those below hold
         self._cells: tuple[np.ndarray, ...] = ()
-        self._weights = self._along_x = self._along_y = np.empty(0)
-        self._located = -1
+        self._weights = np.empty(0)
 
     def state(self) -> dict[str, np.ndarray]:
         """Return what `resume` takes: values (samples, series, gauges), scaled."""
@@ -58,7 +55,18 @@ class Gauges:
             self._locate(model.x)
             self._located = model.x.size
         del self.rows[sample:]
-        self.rows.append(np.array(list(self._values(model).values())))
+        cells = model.cells
+        h2 = cells.h2[self._cells]
+        picked = [
+            cells.h1[self._cells] + h2,
+            h2,
+            *(getattr(cells, name)[self._cells] for name in self.speeds),
+        ]
+        values = (np.array(picked, np.float64) * self._weights).sum(axis=1)
+        values[0] -= model.level
+        if model.settings.layers == 1:
+            values[[0, 2, 3]] = np.nan
+        self.rows.append(values)
 
     def series(self, point: Point) -> dict[str, np.ndarray]:
         """Return the series (gauges, samples) in SI units by name."""
@@ -70,50 +78,26 @@ class Gauges:
             for n, name in enumerate(naming.GAUGES)
         }
 
-    def _values(self, model: Model) -> dict[str, np.ndarray]:
-        """Return the scaled values (gauges) by name of series, in its order."""
-        cells, nothing = model.cells, np.full(len(self.x), np.nan)
-        wet = model.settings.layers == 2
-        surface = self._at(cells.h1, cells.h2) - float(model.level) if wet else nothing
-        values = {"gauge_eta": surface, "gauge_h2": self._at(cells.h2)}
-        for name, (u, v) in PARTS.items():
-            if name == "gauge_u1" and not wet:
-                along = nothing, nothing
-            elif self.geometry == "line":
-                along = self._at(getattr(cells, u)), np.zeros_like(nothing)
-            elif self.geometry == "radius":
-                outwards = self._at(getattr(cells, u), turn=self._along_x)
-                unit = np.divide(1.0, self.distance, out=np.zeros_like(self.x), where=self.distance > 0)
-                along = outwards * self.x * unit, outwards * self.y * unit
-            else:
-                along = (
-                    self._at(getattr(cells, u), turn=self._along_x),
-                    self._at(getattr(cells, v), turn=self._along_y),
-                )
-            values[name], values[name.replace("u", "v")] = along
-        return values
-
-    def _at(self, *parts: np.ndarray, turn: np.ndarray | float = 1.0) -> np.ndarray:
-        """Return the weighted sum (gauges) of what cells hold, added up from its parts as profiles are."""
-        picked = [part[self._cells] for part in parts]
-        total = sum(picked[1:], picked[0]).astype(np.float64)
-        values: np.ndarray = (self._weights * turn * total).sum(axis=0)
-        return values
-
     def _locate(self, x: np.ndarray) -> None:
-        """Find the padded cells beside each gauge, their weights, and which velocities of theirs are turned."""
+        """Find the padded cells (cells, gauges) around each gauge, and their weights (series, cells, gauges)."""
         mirrored = self.geometry in ("radius", "quarter")
-        if self.geometry in ("radius", "line"):
-            place = self.distance if self.geometry == "radius" else self.x
-            columns, weights, turns = beside(place, x, self.dx, mirrored)
-            self._cells, self._weights, self._along_x = (columns,), weights, turns
-            return
-        columns, across, turn_x = beside(self.x, x, self.dx, mirrored)
-        rows, up, turn_y = beside(self.y, x, self.dx, mirrored)
-        of_row, of_column = [0, 0, 1, 1], [0, 1, 0, 1]
-        self._cells = rows[of_row], columns[of_column]
-        self._weights = up[of_row] * across[of_column]
-        self._along_x, self._along_y = turn_x[of_column], turn_y[of_row]
+        if self.geometry in choice.PLANE:
+            (columns, across, turn_u), (rows, up, turn_v) = (
+                beside(places, x, self.dx, mirrored) for places in (self.x, self.y)
+            )
+            of_row, of_column = [0, 0, 1, 1], [0, 1, 0, 1]
+            self._cells = rows[of_row], columns[of_column]
+            weight = up[of_row] * across[of_column]
+            along_x, along_y = turn_u[of_column] * weight, turn_v[of_row] * weight
+        elif self.geometry == "line":
+            columns, weight, _ = beside(self.x, x, self.dx, mirrored)
+            self._cells, along_x, along_y = (columns,), weight, 0 * weight
+        else:
+            distance = np.hypot(self.x, self.y)
+            columns, weight, turn = beside(distance, x, self.dx, mirrored)
+            unit = turn * weight / np.where(distance > 0, distance, 1.0)
+            self._cells, along_x, along_y = (columns,), unit * self.x, unit * self.y
+        self._weights = np.array([weight, weight, along_x, along_y, along_x, along_y])
 
 
 def beside(

@@ -78,7 +78,9 @@ class Study:
         """What records keep of each run, one of `subslide.keys.kept.WORDS`; `auto` goes by the number of points."""
         if self.keep_at_least:
             return self.keep_at_least
-        return "all" if len(self.solved) <= MOST_KEPT_WHOLE else "summary"
+        if len(self.solved) <= MOST_KEPT_WHOLE:
+            return "all"
+        return "series" if any(point.gauges for point in self.points) else "summary"
 
     @property
     def batch_seconds(self) -> float:

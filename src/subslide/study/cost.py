@@ -29,6 +29,8 @@ SECONDS_PER_CELL = {
 """Of one step, by kind of grid and order, on one core with the lean kernels."""
 GENERAL = 2.3
 """Times as many with the general ones."""
+WATCHED, WATCHED_CELL = 1.2e-4, 3e-8
+"""Seconds more of a step of a run with gauges or footprints, which stops after each, and of a cell of the plane in it."""
 
 REST = 1.8
 """Time to rest over 1/m in R / sqrt(g H2 (1-r))."""
@@ -230,7 +232,10 @@ def _reach(point: Point, end: float) -> float:
 def _seconds(point: Point, size: _Size) -> float:
     """Return the seconds of a point of a size."""
     slower = GENERAL if choice.of(point).general else 1
-    return SECONDS_PER_CELL[size.kind, point.order] * slower * size.solved * size.steps
+    of_cell, of_step = SECONDS_PER_CELL[size.kind, point.order] * slower, 0.0
+    if point.gauges or point.footprints:
+        of_cell, of_step = of_cell + WATCHED_CELL * (size.kind == "planar"), WATCHED
+    return (of_cell * size.solved + of_step) * size.steps
 
 
 def _memory(point: Point, size: _Size) -> float:
