@@ -1,6 +1,7 @@
 """What the package says of itself: every import declared, one version of Snakemake, and lints but for those named."""
 
 import ast
+import functools
 import re
 import subprocess
 import sys
@@ -44,7 +45,8 @@ def normal(name: str) -> str:
     return re.sub(r"[-_.]+", "-", name).lower()
 
 
-def imported() -> set[str]:
+@functools.cache
+def imported() -> frozenset[str]:
     """Return the first parts of all that modules import, wherever they do so, and the workflow at its lines' start."""
     names = set()
     for path in PACKAGE.rglob("*.py"):
@@ -55,22 +57,22 @@ def imported() -> set[str]:
                 names.add(node.module or "")
     for path in (ROOT / "workflow/Snakefile", *(ROOT / "workflow/rules").glob("*.smk")):
         names |= set(re.findall(r"^(?:from|import) (\S+)", path.read_text(encoding="utf-8"), re.MULTILINE))
-    return {name.split(".")[0] for name in names} - {"subslide"} - set(sys.stdlib_module_names)
+    return frozenset(name.split(".")[0] for name in names) - {"subslide"} - sys.stdlib_module_names
+
+
+@functools.cache
+def homes() -> dict[str, set[str]]:
+    """Return the distributions that each name which can be imported is of."""
+    return {name: set(map(normal, of)) for name, of in metadata.packages_distributions().items()}
 
 
 def test_every_import_is_of_a_declared_dependency():
-    homes = metadata.packages_distributions()
-    undeclared = {
-        name: homes.get(name, [])
-        for name in imported()
-        if not {normal(home) for home in homes.get(name, [])} & set(declared())
-    }
+    undeclared = {name for name in imported() if not homes().get(name, set()) & set(declared())}
     assert not undeclared
 
 
 def test_every_dependency_is_imported():
-    homes = metadata.packages_distributions()
-    used = {normal(home) for name in imported() for home in homes[name]}
+    used = set().union(*(homes()[name] for name in imported()))
     assert set(declared()) - used == set(NEVER_IMPORTED)
 
 

@@ -38,7 +38,7 @@ class Cores(Count):
 
 @cli.command()
 @click.argument("config")
-@click.argument("options", nargs=-1)
+@click.argument("options", nargs=-1, metavar="[-- OPTIONS]")
 @click.option(
     "--cores",
     type=Cores(1, 100_000),
