@@ -280,6 +280,10 @@ def summary(result: "Run") -> str:
         parts[0] += f" ({result.status_detail})"
     if np.isfinite(result.L_f[0]):
         parts.append(f"L_f = {result.L_f[0]:.4g} m = {result.L_f[0] / radius:.4g} R")
+    farthest = result.measured.get("runout_max")
+    if farthest is not None and np.isfinite(farthest[0]):
+        angle = result.measured["runout_max_direction"][0]
+        parts.append(f"runout up to {farthest[0]:.4g} m, at {angle:g} degrees")
     if np.isfinite(result.max_abs_eta).any():
         parts.append(f"peak max|η| = {np.nanmax(result.max_abs_eta):.4g} m")
     if np.isfinite(result.time_at_rest):
