@@ -172,7 +172,8 @@ def batch(
     if ledger is not None:
         outputs.check(ledger, [*inputs, output, checksums.beside(output)], "--ledger", ".json")
     results: list[Run] = []
-    begun = estimated = 0.0
+    timed: list[Point] = []
+    begun = 0.0
     counter = progress.Counter(counted)
     with at_work(Path(os.path.realpath(output)).parent):
         keeper = Keeper(Path(output).parent / staging.UNFINISHED, Path(output).stem, points, keep)
@@ -184,13 +185,14 @@ def batch(
                 counter.add(results[-1].status not in FINISHED)
                 if not before:
                     keeper.add(results[-1])
-                    estimated += cost.seconds(point, keep) if begun else 0.0
+                    if begun:
+                        timed.append(point)
                     begun = begun or time.process_time()  # the first run waits for kernels
             keep_batch(results, output, ledger, keep, first)
             counter.write()
             keeper.forget()
             if threads == 1:
-                pace.learn(pace.kind(points[0], keep), time.process_time() - begun, estimated)
+                pace.learn(pace.kind(points[0], keep), time.process_time() - begun, cost.of_all(timed, keep))
         except BaseException as error:
             if not (ledger and results):
                 raise
