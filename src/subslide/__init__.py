@@ -11,8 +11,8 @@ from subslide._cache import set_cache_folder
 from subslide._sources import source_hash
 
 __version__ = "0.1.0"
-__all__ = ["Emulator", "__version__", "source_hash"]
-LAZY = {"Emulator": "subslide.emulator"}
+__all__ = ["Emulator", "__version__", "open_study", "source_hash"]
+LAZY = {"Emulator": "subslide.emulator", "open_study": "subslide.results.dataset"}
 """Modules of what is imported when it is asked for."""
 
 set_cache_folder()

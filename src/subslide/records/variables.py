@@ -84,7 +84,6 @@ def variables(runs: list["Run"], first: int = 0) -> dict[str, Variable]:
         record[name] = _variable(name, _padded([getattr(run, name) for run in runs]))
     record["snapshot_time"] = _variable("snapshot_time", _padded([run.snapshot_time for run in runs]))
     if places:
-        record["x"].attrs["axis"] = "X"
         record.update(_profiles(runs, inside, places["x"].dims[-1]))
     for name, variable in record.items():
         if variable.dims[:1] == ("run",) and name not in ("run", *asked):
@@ -101,7 +100,6 @@ def variables(runs: list["Run"], first: int = 0) -> dict[str, Variable]:
             record[dim] = _numbers(dim, sizes[0])
     if any(name in record for name in naming.FIELDS_2D):
         record["y"] = _variable("y", places["x"].values)
-        record["y"].attrs["axis"] = "Y"
     return record
 
 
