@@ -17,17 +17,12 @@ PLUGINS := $(if $(PROFILE),$(if $(wildcard profiles/$(PROFILE)/requirements.lock
 .PHONY: paper study test setup docs clean help
 
 paper: $(READY)  ## set up, then the paper's study to figures and report
-	@$(BIN)/subslide unlock config/paper.yaml
-	@$(BIN)/snakemake --configfile config/paper.yaml --cores "$$CORES"
+	@$(BIN)/subslide study config/paper.yaml --cores "$$CORES"
 	@echo "The paper's study is up to date: results/paper/report.html"
 
 study: $(READY) $(PLUGINS)  ## check a study and run it: make study CONFIG=config/mine.yaml CORES=2, or PROFILE=slurm
-	@[ -z "$$PROFILE" ] || [ -f "profiles/$$PROFILE/config.yaml" ] || \
-		{ echo "PROFILE: $$PROFILE is not allowed; allowed: $$(cd profiles && echo *)" >&2; exit 2; }
-	@$(BIN)/subslide check -- "$$CONFIG"
-	@$(BIN)/subslide unlock -- "$$CONFIG"
 	@$(if $(PROFILE),PYTHONPATH="$(PLUGINS:%/.ready=$(CURDIR)/%)$${PYTHONPATH:+:$$PYTHONPATH}" ) \
-		$(BIN)/snakemake --configfile="$$CONFIG" $(if $(PROFILE),--workflow-profile "profiles/$$PROFILE",--cores "$$CORES")
+		$(BIN)/subslide study $(if $(PROFILE),--profile "$$PROFILE",--cores "$$CORES") -- "$$CONFIG"
 	@echo "The study in $$CONFIG is up to date: its tables, figures and report.html are in results/, under its name"
 
 .PHONY: plan prune
@@ -70,26 +65,22 @@ bench-peers: $(READY)  ## run GeoClaw and PyClaw beside subslide (builds them on
 
 .PHONY: verify
 verify: $(READY)  ## exact solutions, and error against seconds of all numerics; hold the required orders (15 minutes on 2 cores)
-	@$(BIN)/subslide unlock config/accuracy.yaml
-	@$(BIN)/snakemake --configfile config/accuracy.yaml --cores "$$CORES"
+	@$(BIN)/subslide study config/accuracy.yaml --cores "$$CORES"
 	@$(BIN)/subslide verify results/accuracy
 
 .PHONY: atlas
 atlas: $(READY)  ## where methods fail: thousands of runs, maps of errors and statuses, largest stable Courant numbers
-	@$(BIN)/subslide unlock config/stability.yaml
-	@$(BIN)/snakemake --configfile config/stability.yaml --cores "$$CORES"
+	@$(BIN)/subslide study config/stability.yaml --cores "$$CORES"
 	@cat results/stability/logs/table-atlas.log
 
 .PHONY: sensitivity
 sensitivity: $(READY)  ## Sobol' indices, main effects and power laws of the paper's parameters, from 17,000 runs
-	@$(BIN)/subslide unlock config/sensitivity.yaml
-	@$(BIN)/snakemake --configfile config/sensitivity.yaml --cores "$$CORES"
+	@$(BIN)/subslide study config/sensitivity.yaml --cores "$$CORES"
 	@echo "Indices, effects and laws are in results/sensitivity/tables, figures and report.html beside them"
 
 .PHONY: emulator
 emulator: $(READY)  ## make the emulator of the package anew: 4,000 runs, then fits (six minutes on 2 cores)
-	@$(BIN)/subslide unlock config/emulator.yaml
-	@$(BIN)/snakemake --configfile config/emulator.yaml --cores "$$CORES" --until points batch
+	@$(BIN)/subslide study config/emulator.yaml --cores "$$CORES" -- --until points batch
 	@$(BIN)/subslide emulate results/emulator -o src/subslide/emulator/emulator.json
 
 setup: $(READY)  ## set up alone: .venv with the locked packages and this one

@@ -8,11 +8,17 @@ from typing import Any
 
 from subslide import _early  # noqa: F401 - the first, since it hears signals while the others load
 from subslide._cache import set_cache_folder
+from subslide._sources import SNAKEFILE as SNAKEFILE
 from subslide._sources import source_hash
 
 __version__ = "0.1.0"
-__all__ = ["Emulator", "__version__", "source_hash"]
-LAZY = {"Emulator": "subslide.emulator"}
+__all__ = ["Caution", "ConfigError", "Emulator", "__version__", "solve", "source_hash"]
+LAZY = {
+    "Caution": "subslide.library",
+    "ConfigError": "subslide.keys.schema",
+    "Emulator": "subslide.emulator",
+    "solve": "subslide.library",
+}
 """Modules of what is imported when it is asked for."""
 
 set_cache_folder()

@@ -6,13 +6,22 @@ import hashlib
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent
+ROOT = PACKAGE if (PACKAGE / "workflow").is_dir() else PACKAGE.parents[1]
+"""Folder of the workflow and its profiles: an installed package has them within, else they are the repository's."""
+
+SNAKEFILE = str(ROOT / "workflow/Snakefile")
+"""The workflow, which others can import as a module."""
+
+CAPTIONS = ROOT / "workflow/report"
+"""Folder of the captions of tables and figures, ``NAME.rst``."""
+
 COMPILED = ("kernels", "naming.py", "keys/names.py")
 """Rooms whose code is compiled, or is read by code that is."""
 
 JUDGING = ("results", "exact", "laboratory", "sensitivity", "emulator", "tables")
 """Rooms after the records, which make tables of them."""
 
-SHOWING = ("figures", "pages", "commands", "__main__.py", "_early.py", "catalogue.py")
+SHOWING = ("figures", "pages", "commands", "library", "__main__.py", "_early.py", "catalogue.py")
 """Rooms that draw, describe or call what the others make: a change here changes no record and no table."""
 
 WRITERS = frozenset({"__init__", "_write"})
@@ -28,7 +37,7 @@ def source_hash(part: str = "record", name: str = "") -> str:
     part
         `solver`: compiled code. `record`: records. `table`: the table called `name`, so of the tables only what it
         imports. `figure`: the one called `name`, so all but the others and what describes or calls. `page`: that one
-        alone.
+        alone, and the captions.
     name
         Name of the table, figure or page.
 
@@ -38,11 +47,13 @@ def source_hash(part: str = "record", name: str = "") -> str:
         12 hex digits.
     """
     digest = hashlib.sha256()
-    for path in sorted(PACKAGE.rglob("*.py")):
-        source = path.relative_to(PACKAGE)
-        if _belongs(source, part, name) and is_module(source):
-            body = path.read_bytes()
-            digest.update(f"{source.as_posix()} {len(body)}\n".encode() + body)
+    sources = [(path, path.relative_to(PACKAGE)) for path in sorted(PACKAGE.rglob("*.py"))]
+    read = [(path, source) for path, source in sources if _belongs(source, part, name) and is_module(source)]
+    if part == "page":
+        read += [(path, path.relative_to(ROOT)) for path in sorted(CAPTIONS.glob("*.rst"))]
+    for path, source in read:
+        body = path.read_bytes()
+        digest.update(f"{source.as_posix()} {len(body)}\n".encode() + body)
     return digest.hexdigest()[:12]
 
 

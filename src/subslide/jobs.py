@@ -166,7 +166,7 @@ def batch(
     from subslide.solver.checkpoint import Keeper
     from subslide.study.locks import at_work
 
-    points, keep = read_batch(spec)
+    points, keep, first = read_batch(spec)
     inputs = {spec, *(file for point in points for file in scenes.files(point))}
     outputs.check_sealed(output, inputs)
     if ledger is not None:
@@ -186,7 +186,7 @@ def batch(
                     keeper.add(results[-1])
                     estimated += cost.seconds(point, keep) if begun else 0.0
                     begun = begun or time.process_time()  # the first run waits for kernels
-            keep_batch(results, output, ledger, keep)
+            keep_batch(results, output, ledger, keep, first)
             counter.write()
             keeper.forget()
             if threads == 1:
@@ -195,7 +195,7 @@ def batch(
             if not (ledger and results):
                 raise
             part, record = unused_part(ledger, output)
-            keep_batch(results, str(record), str(part), keep)
+            keep_batch(results, str(record), str(part), keep, first)
             said = f"stopped: the {len(results)} runs that were solved are kept as batch {part.stem}"
             if isinstance(error, KeyboardInterrupt | Stopped):
                 raise Stopped(getattr(error, "signal", signal.SIGINT), said) from None
@@ -204,7 +204,9 @@ def batch(
     say(f"{len(results)} runs -> {output}")
 
 
-def keep_batch(results: list["Run"], output: str, ledger: str | None, keep: str = "all") -> None:
+def keep_batch(
+    results: list["Run"], output: str, ledger: str | None, keep: str = "all", first: int = 0
+) -> None:
     """Write the record of runs, its checksum and, if it is given, the ledger's file, each whole or not at all.
 
     Parameters
@@ -215,12 +217,14 @@ def keep_batch(results: list["Run"], output: str, ledger: str | None, keep: str 
         Paths of the record and of the ledger's file.
     keep
         What is kept of each run, one of `subslide.keys.kept.WORDS`.
+    first
+        Number of the first run within its study.
     """
     from subslide.records import netcdf as records
 
-    text = spec_text([result.point for result in results], keep)
+    text = spec_text([result.point for result in results], keep, first)
     checksums.beside(output).unlink(missing_ok=True)
-    records.write(output, results, keep)
+    records.write(output, results, keep, first)
     checksums.seal(output, batch=checksums.text_hash(text), sources=source_hash())
     if ledger:
         write_text(ledger, text)

@@ -191,6 +191,15 @@ SCALARS = {
 }
 
 COORDINATES = {
+    "run": Name(
+        "",
+        ("run",),
+        "1",
+        "number of the run, given once within a study, growing with its batches; 0 of a run on its own",
+    ),
+    "step": Name("", ("step",), "1", "number of the sample, from 0"),
+    "snapshot": Name("", ("snapshot",), "1", "number of the snapshot, from 0"),
+    "cell": Name("", ("cell",), "1", "number of the cell, from 0, where runs lie on unlike grids"),
     "front_threshold": Name("", ("front_threshold",), "1", "depth that defines the front over H2"),
     "x": Name("x", ("x",), "m", "distance of cell centre from the axis of the column along x"),
     "y": Name("y", ("y",), "m", "distance of cell centre from the axis of the column along y"),

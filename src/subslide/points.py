@@ -268,7 +268,7 @@ def to_dict(point: Point, keys: Sequence[str] = RUN_KEYS) -> dict[str, Any]:
 
 def options_text(point: Point) -> str:
     """Return the scene options of a point as compact JSON, in one order."""
-    return values.compact(dict(point.scene_options))
+    return values.compact(dict(point.scene_options)) if point.scene_options else "{}"
 
 
 def from_dict(stated: dict[str, Any]) -> Point:

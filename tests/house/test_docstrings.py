@@ -32,6 +32,7 @@ LIBRARY = {
     "models",
     "scenes",
     "exact",
+    "library",
 }
 """Rooms whose public functions say what they take and give; of the packages below, what their first file has."""
 

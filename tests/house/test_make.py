@@ -13,9 +13,9 @@ def planned(*arguments):
 
 
 def test_make_alone_runs_the_papers_study():
-    assert "--configfile config/paper.yaml" in planned()
+    assert "subslide study config/paper.yaml" in planned()
 
 
 def test_make_with_a_config_runs_that_study():
     assert planned("CONFIG=config/smoke.yaml") == planned("study", "CONFIG=config/smoke.yaml")
-    assert "--configfile config/paper.yaml" not in planned("CONFIG=config/smoke.yaml")
+    assert "config/paper.yaml" not in planned("CONFIG=config/smoke.yaml")

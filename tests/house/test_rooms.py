@@ -28,6 +28,7 @@ ROOMS = (
     ("drawn", ("figures",)),
     ("told", ("pages",)),
     ("commanded", ("jobs", "commands")),
+    ("at hand", ("library",)),
     ("the command line", ("__main__",)),
 )
 """What each floor does, and the modules and folders on it, from the ground up."""

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from subslide.points import Point
-from subslide.solver import solve
+from subslide.records import reductions
+from subslide.solver import compiled, solve
 from subslide.solver.arrest import time_of_arrest
+from subslide.solver.compiled import sparing
 
 TIME = np.array([0.0, 1.0, 2.0, 3.0, 4.0])
 
@@ -52,3 +54,42 @@ def test_it_converges_where_the_time_of_rest_does_not(values):
     coarse, fine = (solve(Point(cells=cells, snapshot_times=(), **values)) for cells in (800, 3200))
     assert coarse.time_of_arrest[0] == pytest.approx(fine.time_of_arrest[0], rel=0.02)
     assert fine.time_of_arrest[0] < fine.time_at_rest
+
+
+SERIES = {
+    "smooth": np.sin(np.linspace(0.0, 7.0, 300)),
+    "rising": np.linspace(0.0, 2.0, 300),
+    "rough": np.random.default_rng(1).normal(size=300),
+    "zeros": np.zeros(300),
+    "nothing": np.full(300, np.nan),
+    "gaps": np.where(np.arange(300) % 7, np.linspace(2.0, -1.0, 300), np.nan),
+    "infinite": np.where(np.arange(300) == 40, -np.inf, np.linspace(1.0, 3.0, 300)),
+}
+
+
+@pytest.mark.parametrize("name", SERIES)
+def test_what_a_run_comes_to_has_the_same_bits_with_and_without_compiled_code(name):
+    values, time = SERIES[name], np.cumsum(np.random.default_rng(2).random(300))
+    for function, others in (
+        (reductions.peak, (time,)),
+        (reductions.relative_change, ()),
+        (reductions.extreme, (1.0,)),
+        (reductions.extreme, (-1.0,)),
+        (reductions.share_above, (0.5,)),
+        (reductions.rise, (time, 50.0)),
+        (reductions.rise, (time, np.nan)),
+        (reductions.running_mean_peak, (time, 3.7)),
+        (reductions.running_mean_peak, (time, 1e9)),
+    ):
+        fresh = sparing(function.__wrapped__)
+        plain, quick = np.array(fresh(values, *others)), np.array(fresh.compiled()(values, *others))
+        assert plain.tobytes() == quick.tobytes(), function.__name__
+    fresh = sparing(time_of_arrest.__wrapped__)
+    assert np.array(fresh(time, values)).tobytes() == np.array(fresh.compiled()(time, values)).tobytes()
+
+
+def test_many_samples_are_worth_compiled_code(monkeypatch):
+    monkeypatch.setattr(compiled, "compiled", lambda function: lambda samples: "compiled")
+    function = sparing(len)
+    assert [function(np.ones(compiled.FEW // 2)) for _ in range(3)] == [compiled.FEW / 2] * 2 + ["compiled"]
+    assert sparing(len)(np.ones(compiled.FEW + 1)) == "compiled"

@@ -9,14 +9,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from states import advance, axial, inner
 
-from subslide import jobs
+from subslide import jobs, naming
 from subslide.kernels import clock as k
 from subslide.kernels import samples as columns
 from subslide.keys.names import SCHEMES
 from subslide.naming import STATUSES
 from subslide.points import Point
 from subslide.scenes.cylinder import disc_corner_area, quadrant_depth, radial_depth
-from subslide.solver import solve
+from subslide.solver import loop, solve
 
 
 def column(r=0.4, **options):
@@ -123,6 +123,39 @@ def test_a_failed_run_has_its_end_beside_the_snapshots_before_it():
     )
     assert run.status != "ok"
     assert run.snapshot_time.tolist() == [0.0, run.time[-1]]
+
+
+@pytest.mark.parametrize("chunk", [loop.CHUNK, 12])
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"snapshot_times": (0.0, 0.05, 1.5)},
+        {"snapshot_times": (0.05, 0.1), "t_end": 0.2},
+        {"snapshot_times": (), "r": 0.0, "quantities": "grains"},
+        {
+            "cfl": 4.0,
+            "delta": 0.0,
+            "boundary": "wall",
+            "order": 1,
+            "snapshot_times": (0.0, 9.0),
+            "t_end": 9.0,
+        },
+        {"model": "quarter", "snapshot_times": (0.05, 0.1), "t_end": 0.2},
+    ],
+)
+def test_a_run_without_profiles_goes_on_from_stop_to_stop_to_the_same_bits(values, chunk, monkeypatch):
+    point = Point(**{"cells": 20 if "model" in values else 60, **values})
+    whole = solve(point)
+    monkeypatch.setattr(loop, "CHUNK", chunk)
+    launches = []
+    track = loop.Samples.track
+    monkeypatch.setattr(loop.Samples, "track", lambda *where: launches.append(1) or track(*where))
+    run = solve(point, profiles=False)
+    assert (run.status, run.status_detail) == (whole.status, whole.status_detail)
+    for name in ("time", "snapshot_time", "L_f", "time_of_arrest", *naming.SERIES):
+        np.testing.assert_array_equal(getattr(run, name), getattr(whole, name))
+    if run.steps < chunk and "model" not in values:
+        assert len(launches) == 1
 
 
 @pytest.mark.parametrize("place", [{"x": -2.0}, {"y": 2.0}])

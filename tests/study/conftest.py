@@ -1,5 +1,6 @@
 """Runs made up without a solver, so that files and tables are tested apart from numerics."""
 
+import json
 import signal
 from pathlib import Path
 
@@ -86,6 +87,7 @@ def solve_study():
                     str(plan.record_path(folder, name)),
                     str(folder / "batches" / f"{name}.json"),
                     study.keep,
+                    json.loads(batch.text)["first_run"],
                 )
         write_text(folder / "points.json", planned.points_text)
         seal(folder / "points.json")
@@ -134,3 +136,20 @@ def signals_of_a_terminal():
 def root() -> Path:
     """Folder of the repository."""
     return Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="session")
+def trained():
+    """What 64 columns taught an emulator."""
+    from learned import columns, measured
+
+    from subslide.emulator import training
+
+    return training.learn(measured(columns(64)), {"study": "formulas"})
+
+
+@pytest.fixture
+def saved(trained, tmp_path):
+    """File of an emulator of 64 columns."""
+    trained.emulator.save(tmp_path / "emulator.json")
+    return tmp_path / "emulator.json"

@@ -17,6 +17,15 @@ def columns(count: int, seed: int = 1) -> list[tuple[float, float, float]]:
     return [(a * (b / a) ** x, c + (d - c) * y, e * (f / e) ** z) for x, y, z in even]
 
 
+def inner(count: int) -> list[tuple[float, float, float]]:
+    """Columns that nothing learned from, within the range of what did."""
+    return [
+        row
+        for row in columns(count, seed=9)
+        if 0.6 < row[0] < 9 and 0.05 < row[1] < 0.75 and 0.3 < row[2] < 2.5
+    ]
+
+
 def answer(a_H: float, r: float, m: float) -> dict[str, float]:
     """Formulas in place of the solver's limit: smooth, and about as large as its answers."""
     length = 1 + 0.8 * m**-0.7 * (1 - 0.3 * r) * a_H**0.05

@@ -100,7 +100,7 @@ def test_no_batch_is_larger_than_its_limit():
 def test_batch_files_hold_whole_points(tmp_path):
     points = study(a_H=[1, 2], t_end=["rest", 0.5]).points
     (tmp_path / "b.json").write_text(batches.spec_text(points))
-    assert batches.read_batch(tmp_path / "b.json") == (list(points), "all")
+    assert batches.read_batch(tmp_path / "b.json") == (list(points), "all", 0)
 
 
 ROW = {"id": Point(cells=20).id, **to_dict(Point(cells=20))}

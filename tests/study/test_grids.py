@@ -108,7 +108,7 @@ def test_runs_on_one_uniform_grid_have_the_layout_of_before(make_run, cells, sea
             continue
         variable = record[name]
         assert variable.dims == ("run", "snapshot", *(["y", "x"] if "field" in name else ["x"]))
-        assert variable.attrs["coordinates"] == "id snapshot_time"
+        assert variable.attrs["coordinates"] == "id a_H a_2 r delta snapshot_time"
         for n, run in enumerate(runs):
             values, kept = variable.values[n], getattr(run, name)
             start = round(run.x[0] / run.dx - 0.5) - first
@@ -150,8 +150,8 @@ def test_positions_on_unlike_grids_are_coordinates_by_the_conventions(tmp_path, 
             assert np.isnan(data[name]._FillValue)
             assert data[name].units == "m"
         for name in ("h2", "eta", "cell_width"):
-            assert data[name].coordinates == "id snapshot_time x"
-        assert data["x"].coordinates == "id snapshot_time"
+            assert data[name].coordinates == "id a_H a_2 r delta snapshot_time x"
+        assert data["x"].coordinates == "id a_H a_2 r delta snapshot_time"
         assert data["x"].axis == "X"
         assert np.isnan(data["dx"][0])
         assert list(data["grid"][:]) == ["fitted", "uniform", "uniform"]

@@ -32,7 +32,10 @@ def test_removing_points_removes_no_file_unless_that_is_asked_for(solved, capsys
     freed = sum((solved / name).stat().st_size for name in before if "0001" in name) + 11
     assert main(["prune", "study.yaml"]) == 0
     assert capsys.readouterr().out == f"study 't': 2 batches removed, {freed / 1e6:.3g} MB freed\n"
-    assert files(solved) == {name for name in before if "0001" not in name} | {"records/notes.nc"}
+    assert files(solved) == {name for name in before if "0001" not in name} | {
+        "records/notes.nc",
+        "batches/next_run",
+    }
     assert main(["prune", "study.yaml"]) == 0
     assert capsys.readouterr().out == "study 't': 0 batches removed, 0 MB freed\n"
 

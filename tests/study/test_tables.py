@@ -1,5 +1,9 @@
 """Tables: a row a run in the study's order, tidy series, and nothing that differs between identical runs."""
 
+import csv
+import io
+import math
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -152,3 +156,28 @@ def test_rows_are_written_as_pandas_would(float_format):
     made = _write.csv_text("abcdefgh", rows, float_format)
     frame = pd.DataFrame(rows, columns=list("abcdefgh"))
     assert made == frame.to_csv(index=False, lineterminator="\n", float_format=float_format or None)
+
+
+def test_entries_are_written_as_the_library_would():
+    columns = {
+        "text": ["plain", "a, b", 'say "so"', "two\nlines", "return\r", "", " "],
+        "number": [0.0, -0.0, 0.1, math.nan, math.inf, 0.1, 1e300],
+        "array": np.array([1 / 3, math.nan, -0.0, 0.0, 5e-324, 2.0, -1.0]),
+        "words": np.array(["a,b", "c", "", "d", "e", "f", "g"], object),
+        "whole": [1, -2, 3, 4, 5, 6, 7],
+        "some": [None, 2, 3, math.nan, 5, 6, 7.5],
+        "mixed": [True, "a,b", 3, None, 0.5, math.nan, "x"],
+        "none": [None] * 7,
+    }
+    texts = {
+        **columns,
+        "number": ["0.0", "-0.0", "0.1", "", "inf", "0.1", "1e+300"],
+        "array": [repr(1 / 3), "", "-0.0", "0.0", "5e-324", "2.0", "-1.0"],
+        "some": ["", "2.0", "3.0", "", "5.0", "6.0", "7.5"],
+        "mixed": ["True", "a,b", "3", "", "0.5", "", "x"],
+        "none": [""] * 7,
+    }
+    expected = io.StringIO()
+    writer = csv.writer(expected, lineterminator="\n")
+    writer.writerows([columns, *zip(*texts.values(), strict=True)])
+    assert "".join(_write.csv_parts(columns)) == expected.getvalue()

@@ -8,6 +8,7 @@ import sys
 
 import pandas as pd
 import pytest
+import xarray as xr
 from projects import STUDY, TABLES, Project
 
 NEW_TABLE = '''"""Where runs end."""
@@ -93,6 +94,11 @@ def test_a_wider_grid_computes_only_what_is_new(project):
     assert record.stat().st_mtime_ns == before
     assert project.runs()["a_H"].tolist() == [0.5, 2, 1]
     assert project.jobs() == {}
+    numbers = [
+        xr.open_dataset(path)["run"].values.tolist() for path in sorted(project.results.glob("records/*.nc"))
+    ]
+    assert numbers == [[1, 2], [3]]
+    assert (project.results / "batches/next_run").read_text() == "4\n"
 
 
 def test_bands_solve_companions_alone_and_leave_no_trace_when_removed(project):

@@ -6,14 +6,14 @@ rule report:
         POINTS,
         SEALED_TABLES,
         SEALED_FIGURES,
-        captions=[] if CARRIED else sorted(CAPTIONS.glob("*.rst")),
         stamp=stamp(
             "report",
             [RESULTS / "report.html"],
             lambda: staging.are_whole([RESULTS / "report.html"], sources=source_hash("page", "report")),
         ),
     output:
-        sealed(RESULTS / "report.html"),
+        page=RESULTS / "report.html",
+        checksum=checksums.beside(RESULTS / "report.html"),
     log:
         RESULTS / "logs/report.log",
     benchmark:
@@ -23,6 +23,6 @@ rule report:
         runtime=30,
     params:
         results=subpath(output[0], parent=True),
-        captions=remembered(CAPTIONS, "page", "report"),
+        sources=remembered("", "page", "report"),
     shell:
-        "logged {log:q} subslide report {params.results:q} --captions {params.captions[0]:q} -o {output[0]:q}"
+        "logged {log:q} subslide report {params.results:q} -o {output.page:q}"

@@ -2,13 +2,12 @@
 
 TABLES = {name: [RESULTS / "tables" / file for file in files] for name, files in STAGED.tables.items()}
 SEALED_TABLES = [file for paths in TABLES.values() for file in sealed(*paths)]
-CAPTIONS = BASE / "workflow/report"
 
 
 def caption(name):
     """Return the path of the caption of a table or figure, or None."""
     path = CAPTIONS / f"{name}.rst"
-    return str(path.resolve()) if path.exists() else None  # Snakemake looks for others beside this file
+    return str(path) if path.exists() else None
 
 
 def made_from(name):

@@ -15,7 +15,16 @@ from subslide.keys import words
 
 MODULES = tuple(
     f"{__name__}.{name}"
-    for name in ("solving", "planning", "making", "tabulating", "sensitivity", "emulating", "showing")
+    for name in (
+        "solving",
+        "study",
+        "planning",
+        "making",
+        "tabulating",
+        "sensitivity",
+        "emulating",
+        "showing",
+    )
 )
 """Modules with verbs, in the order that help lists them."""
 

@@ -69,11 +69,16 @@ def unlock(config: str) -> None:
 
 @cli.command()
 @click.argument("results")
-@click.option("--captions", metavar="FOLDER", help="folder of texts, NAME.rst, for tables and figures")
+@click.option(
+    "--captions",
+    metavar="FOLDER",
+    help="folder of texts, NAME.rst, of tables and figures  [default: the package's]",
+)
 @click.option("-o", "--output", required=True, metavar="FILE.html", help="page to write")
 def report(results: str, captions: str | None, output: str) -> None:
     """Write the report of a study: one page with its figures and tables; RESULTS is its folder."""
     from subslide import checksums, source_hash
+    from subslide._sources import CAPTIONS
     from subslide.files import write_text
     from subslide.pages import report as page
     from subslide.results import Results
@@ -85,6 +90,7 @@ def report(results: str, captions: str | None, output: str) -> None:
         )
     page_of_study = Path(results, "report.html")
     inputs = outputs.of_study(Path(results), but=[page_of_study, checksums.beside(page_of_study)])
-    outputs.check_sealed(output, [*inputs, *Path(captions or results).glob("*.rst")], ".html")
-    write_text(output, page.text(Results(results), Path(captions) if captions else None))
+    texts = Path(captions or CAPTIONS)
+    outputs.check_sealed(output, [*inputs, *texts.glob("*.rst")], ".html")
+    write_text(output, page.text(Results(results), texts))
     checksums.seal(output, sources=source_hash("page", "report"))

@@ -1,5 +1,7 @@
 """From values on several grids to those of ever finer ones, with what is left in doubt."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from subslide.emulator import coordinates
@@ -8,7 +10,25 @@ TAILS = 0.02
 """Share of slopes, at either end, that are drawn in before a smooth one is laid through all."""
 
 
-def limit(values: np.ndarray, cells: np.ndarray, z: np.ndarray | None) -> tuple[np.ndarray, np.ndarray]:
+class Limit(NamedTuple):
+    """Limits as cells shrink, and how far they may err, as standard deviations.
+
+    Attributes
+    ----------
+    value
+        Limits (n).
+    noise
+        What differs from column to column (n): leave-one-out sees it.
+    bias
+        What is wrong with all alike (n): leave-one-out cannot see it.
+    """
+
+    value: np.ndarray
+    noise: np.ndarray
+    bias: np.ndarray
+
+
+def limit(values: np.ndarray, cells: np.ndarray, z: np.ndarray | None) -> Limit:
     """Return limits as cells shrink, and their doubt, of values that err in proportion to 1/cells.
 
     A line in 1/cells is fitted with the weights cells^2. Fronts err by a number of cells that is about the same for all
@@ -26,26 +46,40 @@ def limit(values: np.ndarray, cells: np.ndarray, z: np.ndarray | None) -> tuple[
 
     Returns
     -------
-    tuple of ndarray
-        Limits (n), and standard deviations (n): of residuals where slopes are pooled, else a share of how far the limit
-        lies from the finest grid.
+    Limit
+        Where slopes are pooled, noise is that of residuals, and bias a multiple of what the finest grid changed (noise
+        too of two grids). Else both are a share of how far limits lie from the finest grid.
     """
+    if z is None:
+        value, _, _ = _line(values, cells, None)
+        doubt = OF_EXTRAPOLATION * np.abs(value - values[:, np.argmax(cells)])
+        return Limit(value, doubt, doubt)
+    value, slope, weight = _line(values, cells, z)
+    residual = values - value[:, None] - slope[:, None] / cells
+    noise = OF_RESIDUALS * np.sqrt(residual**2 @ weight)
+    if len(cells) == 2:
+        return Limit(value, noise, noise)
+    coarse = np.argsort(cells)[:-1]
+    change = value - _line(values[:, coarse], cells[coarse], z)[0]
+    return Limit(value, noise, OF_CHANGE * np.abs(change))
+
+
+def _line(
+    values: np.ndarray, cells: np.ndarray, z: np.ndarray | None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return limits (n) and slopes (n) over 1/cells, these smooth in z if there is one, and the grids' weights (k)."""
     h = 1 / np.asarray(cells, float)
     weight = h**-2 / np.sum(h**-2)
     mean, middle = values @ weight, h @ weight
     slope = (values - mean[:, None]) @ (weight * (h - middle)) / (weight @ (h - middle) ** 2)
-    if z is None:
-        result = mean - slope * middle
-        return result, OF_EXTRAPOLATION * np.abs(result - values[:, np.argmin(h)])
-    size = np.maximum(np.abs(mean), 1e-12)
-    relative = slope / size
-    drawn_in = np.clip(relative, *np.nanquantile(relative, [TAILS, 1 - TAILS]))
-    good = np.isfinite(drawn_in)
-    basis = coordinates.quadratic(z)
-    relative = basis @ np.linalg.lstsq(basis[good], drawn_in[good], rcond=None)[0]
-    result = mean - relative * size * middle
-    residual = values - result[:, None] - np.outer(relative * size, h)
-    return result, OF_RESIDUALS * np.sqrt(residual**2 @ weight)
+    if z is not None:
+        size = np.maximum(np.abs(mean), 1e-12)
+        relative = slope / size
+        drawn_in = np.clip(relative, *np.nanquantile(relative, [TAILS, 1 - TAILS]))
+        good = np.isfinite(drawn_in)
+        basis = coordinates.quadratic(z)
+        slope = basis @ np.linalg.lstsq(basis[good], drawn_in[good], rcond=None)[0] * size
+    return mean - slope * middle, slope, weight
 
 
 OF_RESIDUALS = 1.7
@@ -53,3 +87,6 @@ OF_RESIDUALS = 1.7
 
 OF_EXTRAPOLATION = 0.15
 """Doubt of a wave's limit over how far it was extrapolated: see docs/emulator.md."""
+
+OF_CHANGE = 2.0
+"""Bias of a front's limit over what the finest grid changed in it."""

@@ -61,16 +61,15 @@ class Group(NamedTuple):
 
 def kernel(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Return the covariances (n, k) of points (n, 3) and (k, 3): Matern 5/2 of length 1."""
-    d = a @ (-10 * b.T)
-    d += 5 * (a**2).sum(axis=1)[:, None]
-    d += 5 * (b**2).sum(axis=1)
-    np.sqrt(np.maximum(d, 0, out=d), out=d)
-    fall = np.exp(-d)
-    covariance = d / 3
+    left = np.concatenate([a, 5 * (a**2).sum(axis=1)[:, None], np.ones((len(a), 1))], axis=1)
+    right = np.concatenate([-10 * b.T, np.ones((1, len(b))), 5 * (b**2).sum(axis=1)[None]])
+    covariance = left @ right  # squares of distances: few passes over large arrays are what counts
+    np.maximum(covariance, 0, out=covariance)
+    d = np.sqrt(covariance)
+    covariance *= 1 / 3
+    covariance += d
     covariance += 1
-    covariance *= d
-    covariance += 1
-    covariance *= fall
+    covariance *= np.exp(np.negative(d, out=d), out=d)
     return covariance
 
 

@@ -40,8 +40,8 @@ class Limits(NamedTuple):
         Quantities (q) of a group.
     inputs
         Columns (n, 3): a_H, r and m.
-    values, doubt
-        Values (n, q) and their standard deviations.
+    values, noise, bias
+        Values (n, q) and their standard deviations, see `grids.Limit`.
     lost
         Columns that are left out, since a run of theirs lacks a value.
     """
@@ -49,8 +49,14 @@ class Limits(NamedTuple):
     quantities: tuple[str, ...]
     inputs: np.ndarray
     values: np.ndarray
-    doubt: np.ndarray
+    noise: np.ndarray
+    bias: np.ndarray
     lost: int
+
+    def first(self, count: int | None) -> "Limits":
+        """Return those of the first columns, as many as a group keeps."""
+        names = ("inputs", "values", "noise", "bias")
+        return self._replace(**{name: getattr(self, name)[:count] for name in names})
 
 
 class LeftOut(NamedTuple):
@@ -138,20 +144,20 @@ def learn(measured: Iterable[Measured], about: Mapping[str, object]) -> Training
     """
     groups: dict[str, Group] = {}
     left_out: dict[str, list[LeftOut]] = {}
-    known = limits(measured)
+    known = {name: one.first(named.MOST.get(name)) for name, one in limits(measured).items()}
     peak_band = None
     for name, one in known.items():
         if len(one.inputs) < FEWEST:
             raise ConfigError(f"{name}: {len(one.inputs)} columns are known; allowed: at least {FEWEST}")
         kind = named.LEARNED[name][0]
-        learned = fitting.learn(kind, one.quantities, one.inputs, one.values, one.doubt)
+        learned = fitting.learn(kind, one.quantities, one.inputs, one.values, one.noise, one.bias)
         groups[name] = learned.group
         if name == "gauge":
             exact, guess = one.values.max(axis=1), learned.left_out.max(axis=1)
-            doubt = one.doubt[np.arange(len(exact)), one.values.argmax(axis=1)]
-            peak_band = fitting.band_of(kind, one.inputs, guess / exact - 1, doubt / exact)
+            bias = one.bias[np.arange(len(exact)), one.values.argmax(axis=1)]
+            peak_band = fitting.band_of(kind, one.inputs, learned.nearer * (guess / exact - 1), bias / exact)
             share = np.exp(coordinates.of_errors(coordinates.of(kind, one.inputs)) @ peak_band)
-            left_out[named.PEAK] = [LeftOut(one.inputs, guess, exact, share * guess)]
+            left_out[named.PEAK] = [LeftOut(one.inputs, guess, exact, share * guess / learned.nearer)]
             continue
         for q, quantity in enumerate(one.quantities):
             each = LeftOut(one.inputs, learned.left_out[:, q], one.values[:, q], learned.bands[:, q])
@@ -200,12 +206,12 @@ def limits(measured: Iterable[Measured]) -> dict[str, Limits]:
         if not few.any() or (name == "gauge" and not few.all()):
             continue
         good = complete[:, few].all(axis=1)
-        inputs, array = (part[good][: named.MOST.get(name)] for part in (inputs, array[:, :, few]))
+        inputs, array = (part[good] for part in (inputs, array[:, :, few]))
         z = coordinates.of(kind, inputs) if name in named.POOLED else None
-        pairs = [grids.limit(array[:, :, q], cells, z) for q in range(array.shape[2])]
-        value, doubt = (np.stack([pair[k] for pair in pairs], axis=1) for k in (0, 1))
+        parts = zip(*(grids.limit(array[:, :, q], cells, z) for q in range(array.shape[2])), strict=True)
+        value, noise, bias = (np.stack(part, axis=1) for part in parts)
         names = tuple(np.array(quantities)[few].tolist())
-        answers[name] = Limits(names, inputs, value, doubt, int(len(columns) - good.sum()))
+        answers[name] = Limits(names, inputs, value, noise, bias, int(len(columns) - good.sum()))
     return answers
 
 

@@ -162,8 +162,19 @@ def advance(s, c, left, right, fx, terms, mesh, walls, watch, thresholds, track)
     counters[k.OUTCOME] = code
 
 
+@inlined
+def advance_on(s, c, left, right, fx, terms, mesh, walls, watch, thresholds, track):
+    """Run `advance` to each stop of the clock, from the sample that it ended with at the one before."""
+    again = True
+    while again:
+        advance(s, c, left, right, fx, terms, mesh, walls, watch, thresholds, track)
+        again = k.goes_on(track.clock, track.counters)
+        if again:
+            track.counters[k.SAMPLES] -= 1
+
+
 @launch
 def advance_axial(s, c, left, right, fx, terms, mesh, walls, watch, thresholds, track):
-    """Run `advance` in a parallel region of one, where arrays are known not to overlap; see `jit.launch`."""
+    """Run `advance_on` in a parallel region of one, where arrays are known not to overlap; see `jit.launch`."""
     for _ in prange(1):
-        advance(s, c, left, right, fx, terms, mesh, walls, watch, thresholds, track)
+        advance_on(s, c, left, right, fx, terms, mesh, walls, watch, thresholds, track)

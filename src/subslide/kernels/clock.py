@@ -10,7 +10,8 @@ from subslide.keys.names import SCHEMES, flags
 RUNNING, REACHED, AT_REST, FRONT_AT_EDGE, NOT_FINITE, NEGATIVE, COLLAPSED, FULL, SHEARED, NO_ROOM = range(10)
 
 # Indices into the float64 array `clock`.
-NOW, STOP, REST_FROM, REST_SINCE, AHEAD, UNMEASURED = range(6)
+NOW, STOP, REST_FROM, REST_SINCE, AHEAD, UNMEASURED, LATER = range(7)
+"""From LATER on: stops to which a loop may go on from STOP, which then is the last that it has come to, in order."""
 
 # Indices into the int64 array `counters`.
 SAMPLES, OUTCOME = range(2)
@@ -21,9 +22,23 @@ SMALLEST_STEP = 1e-6
 """In units of dx / sqrt(g H2): no wave of a run that can finish is a million times faster than sqrt(g H2)."""
 
 
-def started(stop=0.0):
+def started(stop=0.0, later=()):
     """Return the `clock` of a run that starts now and does not end at rest."""
-    return np.array([0.0, stop, math.inf, -1.0, 0.0, 0.0])
+    return np.array([0.0, stop, math.inf, -1.0, 0.0, 0.0, *later])
+
+
+@inlined
+def goes_on(clock, counters):
+    """Return whether a loop has come to its stop and another is left, which then is its stop.
+
+    A launch for each takes as long as ten steps. The loop begins as if launched anew, so no bits tell the difference.
+    """
+    if counters[OUTCOME] == REACHED:
+        for n in range(LATER, clock.shape[0]):
+            if clock[n] > clock[STOP]:
+                clock[STOP] = clock[n]
+                return True
+    return False
 
 
 @inlined

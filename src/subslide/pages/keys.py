@@ -12,7 +12,8 @@ One YAML file is one study. Run it with
 
     make study CONFIG=config/mine.yaml CORES=2
 
-or, in the virtual environment that `make setup` makes, `snakemake --configfile config/mine.yaml --cores 2`.
+or, wherever the package is installed, `subslide study mine.yaml --cores 2` (docs/workflow.md), or, in the virtual
+environment that `make setup` makes, `snakemake --configfile config/mine.yaml --cores 2`.
 Results go to `results/<study>/`. Without a file Snakemake runs `config/paper.yaml`; files are never merged.
 
 An editor that knows YAML completes and checks a file that begins with

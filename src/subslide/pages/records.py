@@ -55,9 +55,10 @@ any case. `all`: series and profiles. `series`: no profiles. `summary`: of {summ
 straight lines pass those of every step within {share:g} of the range of the series (or {least:g} of its largest size),
 with each local extreme that stands out by more, in single precision. There a value is missing where another series
 alone has a sample, and infinite where the run has none; `subslide.results` gives them filled in, as those of other
-records. Texts of a summary are tables of characters (CF 2.2), and `config` states the values that all its runs share.
+records. `config` of a summary states the values that all its runs share.
 
-Each key of a study is a variable too ([config/README.md](../config/README.md)); attributes hold the configuration,
+Texts are tables of characters (CF 2.2). Each key of a study is a coordinate along `run`, as is each option of the
+runs' scenes, such as `elongation` ([config/README.md](../config/README.md)); attributes hold the configuration,
 versions and a checksum that readers verify. `status` is one of:
 
 """

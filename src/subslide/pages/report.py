@@ -41,7 +41,7 @@ th, td { padding: .15rem .6rem; text-align: right; border-bottom: 1px solid #ddd
 """
 
 
-def text(results: "Results", captions: Path | None = None) -> str:
+def text(results: "Results", captions: Path) -> str:
     """Return the page.
 
     Parameters
@@ -109,7 +109,7 @@ def _outcome(runs: "pd.DataFrame") -> str:
     return "".join(f"<p>{_safe(line)}</p>" for line in lines)
 
 
-def _figures(folder: Path, captions: Path | None) -> Iterable[str]:
+def _figures(folder: Path, captions: Path) -> Iterable[str]:
     """Give the figures that are there, under their headings, with captions."""
     present = [name for name in catalogue.names("figures") if (folder / f"{name}.png").is_file()]
     heading = ""
@@ -126,10 +126,10 @@ def _figures(folder: Path, captions: Path | None) -> Iterable[str]:
         )
 
 
-def _caption(captions: Path | None, name: str) -> str:
+def _caption(captions: Path, name: str) -> str:
     """Return the text of a caption, '' without one."""
-    path = captions / f"{name}.rst" if captions else None
-    if path is None or not path.is_file():
+    path = captions / f"{name}.rst"
+    if not path.is_file():
         return ""
     return re.sub("``(.*?)``", r"<code>\1</code>", _safe(" ".join(read_text(path, MOST_SHOWN).split())))
 
@@ -142,7 +142,7 @@ def _rows(runs: "pd.DataFrame") -> str:
     return f'<div class="scroll">{table}</div>{_rest(len(runs), "runs.csv")}'
 
 
-def _tables(results: "Results", captions: Path | None) -> Iterable[str]:
+def _tables(results: "Results", captions: Path) -> Iterable[str]:
     """Give each table: what it is, its page or its first rows, and a link to its file."""
     for name in catalogue.names("tables"):
         files = [

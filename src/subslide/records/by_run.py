@@ -37,7 +37,7 @@ def read(path: Path, ids: Collection[str], names: Collection[str]) -> dict[str, 
     Parameters
     ----------
     path
-        The record.
+        The record, for which the checksum beside it was seen to vouch.
     ids
         Ids of the runs.
     names
@@ -54,7 +54,7 @@ def read(path: Path, ids: Collection[str], names: Collection[str]) -> dict[str, 
     RecordError
         If the record is missing or damaged, or lacks a run.
     """
-    variables, attrs = netcdf.read(path, {*names, *PLACES})
+    variables, attrs = netcdf.read(path, {*names, *PLACES}, vouched=True)
     places = dict(zip(ids, _places(path, variables, ids), strict=True))
     wanted = {name: variables[name] for name in names if name in variables}
     runs: dict[str, dict[str, Any]] = {
@@ -99,7 +99,7 @@ def values(path: Path, ids: Collection[str], names: Collection[str]) -> dict[str
     Parameters
     ----------
     path
-        The record.
+        The record, for which the checksum beside it was seen to vouch.
     ids
         Ids of the runs.
     names
@@ -115,7 +115,7 @@ def values(path: Path, ids: Collection[str], names: Collection[str]) -> dict[str
     RecordError
         If the record is missing or damaged, or lacks a run or a variable.
     """
-    variables, _ = netcdf.read(path, {*names, "id"})
+    variables, _ = netcdf.read(path, {*names, "id"}, vouched=True)
     places = _places(path, variables, ids)
     record = OfRun(path, variables)
     return {name: record[name].values[places] for name in names}

@@ -27,7 +27,7 @@ COMPRESSED_FROM = {False: 1 << 16, True: 1 << 12}
 numbers are rounded and whose texts are mostly alike, much less is left."""
 
 
-def write(path: Path | str, runs: list["Run"], keep: str = "all") -> None:
+def write(path: Path | str, runs: list["Run"], keep: str = "all", first: int = 0) -> None:
     """Write the record of runs, read back and verified.
 
     Parameters
@@ -38,21 +38,42 @@ def write(path: Path | str, runs: list["Run"], keep: str = "all") -> None:
         Results of `solver.solve`, as `records.thinning.kept` gives them.
     keep
         What is kept of each, one of `subslide.keys.kept.WORDS`, which the record states.
+    first
+        Number of the first run within its study; the others follow.
 
     Raises
     ------
     RecordError
         If what was read back is not what was written.
     """
-    variables = layout.variables(runs)
-    attrs = provenance.attributes(runs, variables, keep)
-    attrs[CHECKSUM] = digest(variables, attrs)
+    variables, attrs = contents(runs, keep, first)
     with replacing(path) as temporary:
         _store(temporary, variables, attrs, small=keep == "summary")
         read(temporary, names=())
 
 
-def read(path: Path | str, names: Collection[str] | None = None) -> tuple[dict[str, Variable], dict]:
+def contents(runs: list["Run"], keep: str = "all", first: int = 0) -> tuple[dict[str, Variable], dict]:
+    """Return what `write` writes: variables by name and global attributes, the checksum among them.
+
+    Parameters
+    ----------
+    runs, keep, first
+        As for `write`.
+
+    Returns
+    -------
+    tuple of dict
+        Variables and attributes, as `read` gives them.
+    """
+    variables = layout.variables(runs, first)
+    attrs = provenance.attributes(runs, variables, keep)
+    attrs[CHECKSUM] = digest(variables, attrs)
+    return variables, attrs
+
+
+def read(
+    path: Path | str, names: Collection[str] | None = None, vouched: bool = False
+) -> tuple[dict[str, Variable], dict]:
     """Return the variables by name, and the global attributes, of a record.
 
     This is the plain reader; `subslide.results` gives xarray datasets.
@@ -64,6 +85,8 @@ def read(path: Path | str, names: Collection[str] | None = None) -> tuple[dict[s
     names
         Names of the variables that are wanted, all without it; what the record lacks is left out. The others are
         verified too, one after the other, and do not stay in memory.
+    vouched
+        Whether the checksum beside the file vouches for it: then no others are read.
 
     Returns
     -------
@@ -87,8 +110,11 @@ def read(path: Path | str, names: Collection[str] | None = None) -> tuple[dict[s
             attrs = {key: data.getncattr(key) for key in data.ncattrs()}
             total = _digest_of(attrs)
             for name in sorted(data.variables):
+                if vouched and names is not None and name not in names:
+                    continue
                 variable = _read(data.variables[name])
-                _add(total, name, variable)
+                if not vouched:
+                    _add(total, name, variable)
                 if names is None or name in names:
                     wanted[name] = variable
             variables = {name: wanted[name] for name in data.variables if name in wanted}
@@ -96,7 +122,7 @@ def read(path: Path | str, names: Collection[str] | None = None) -> tuple[dict[s
         raise RecordError(f"{path}: the file is damaged or not a NetCDF file ({error})") from None
     if CHECKSUM not in attrs:
         raise RecordError(f"{path}: not a record of subslide: it has no checksum")
-    if attrs[CHECKSUM] != total.hexdigest():
+    if not vouched and attrs[CHECKSUM] != total.hexdigest():
         raise RecordError(f"{path}: the record is damaged: its content does not match its checksum")
     return variables, attrs
 
@@ -132,7 +158,7 @@ def _add(total: "hashlib._Hash", name: str, variable: Variable) -> None:
     dims, values, about = variable
     total.update(json.dumps([name, list(dims), list(values.shape)]).encode() + _attrs_text(about))
     if values.dtype.kind == "O":
-        total.update(json.dumps([str(value) for value in values.ravel()]).encode())
+        total.update(json.dumps(list(map(str, values.ravel().tolist()))).encode())
     else:
         total.update(values.dtype.str.encode())
         total.update(np.ascontiguousarray(values).data)
@@ -143,8 +169,10 @@ def _read(variable: netCDF4.Variable) -> Variable:
     dims, values = variable.dimensions, variable[...]
     about = {key: variable.getncattr(key) for key in variable.ncattrs()}
     if about.pop(ENCODING, None):
-        rows = np.ascontiguousarray(values).view(f"S{values.shape[-1]}")[..., 0]
-        return Variable(dims[:-1], np.strings.decode(rows, "utf-8").astype(object), about)
+        rows = np.ascontiguousarray(values).view(f"S{values.shape[-1]}")[..., 0].ravel().tolist()
+        texts = {row: row.decode() for row in set(rows)}  # mostly of few kinds
+        decoded = np.fromiter(map(texts.__getitem__, rows), object, len(rows))
+        return Variable(dims[:-1], decoded.reshape(values.shape[:-1]), about)
     return Variable(dims, np.asarray(values, dtype=object if variable.dtype is str else None), about)
 
 
@@ -155,26 +183,28 @@ def _attrs_text(attrs: dict) -> bytes:
 
 
 def _store(path: Path, variables: dict[str, Variable], attrs: dict, small: bool) -> None:
-    """Write variables and attributes to a NetCDF file, small: texts as tables of characters."""
+    """Write variables and attributes to a NetCDF file; texts as tables of characters, as the classic model has them.
+
+    small: whether little is left of what is compressed.
+    """
     with netCDF4.Dataset(os.fspath(path), "w", format="NETCDF4") as data:
         data.set_auto_chartostring(False)
         for name, variable in variables.items():
             dims, values, about = variable.dims, variable.values, dict(variable.attrs)
-            if small and values.dtype.kind == "O":
+            if values.dtype.kind == "O":
                 texts = np.strings.encode(values.astype(str), "utf-8")
-                dims = (*dims, f"length_{texts.itemsize}")
+                dims = (*dims, f"{name}_length")  # one of its own: libraries that join files let it grow
                 values = texts.view("S1").reshape(*texts.shape, texts.itemsize)
                 about[ENCODING] = "utf-8"
             for dim, size in zip(dims, values.shape, strict=True):
                 if dim not in data.dimensions:
                     data.createDimension(dim, size)
-            text = values.dtype.kind == "O"
             target = data.createVariable(
                 name,
-                str if text else values.dtype,
+                values.dtype,
                 dims,
                 fill_value=about.pop("_FillValue", None),
-                compression="zlib" if not text and values.nbytes >= COMPRESSED_FROM[small] else None,
+                compression="zlib" if values.nbytes >= COMPRESSED_FROM[small] else None,
                 complevel=1,
             )
             target.setncatts(about)

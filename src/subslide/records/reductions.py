@@ -1,13 +1,13 @@
-"""What a run's samples come to: loops over them, compiled once for all kinds of runs."""
+"""What a run's samples come to: loops over them, compiled where there are many."""
 
 import math
 
 import numpy as np
 
-from subslide.solver.compiled import compiled
+from subslide.solver.compiled import sparing
 
 
-@compiled
+@sparing
 def peak(values: np.ndarray, time: np.ndarray) -> tuple[float, float]:
     """Return the largest of the values that are numbers, and the first time of it; NaN if none is finite.
 
@@ -32,7 +32,7 @@ def peak(values: np.ndarray, time: np.ndarray) -> tuple[float, float]:
     return (values[place], time[place]) if finite else (math.nan, math.nan)
 
 
-@compiled
+@sparing
 def relative_change(values: np.ndarray) -> float:
     """Return the largest relative change of values since the first; NaN if none is finite.
 
@@ -56,7 +56,7 @@ def relative_change(values: np.ndarray) -> float:
     return largest if finite else math.nan
 
 
-@compiled
+@sparing
 def extreme(values: np.ndarray, sign: float) -> float:
     """Return the largest (sign 1) or the smallest (-1) of the values that are numbers; NaN if there is none.
 
@@ -79,7 +79,7 @@ def extreme(values: np.ndarray, sign: float) -> float:
     return kept
 
 
-@compiled
+@sparing
 def share_above(values: np.ndarray, bound: float) -> float:
     """Return the share of values that are above a bound.
 
@@ -101,7 +101,7 @@ def share_above(values: np.ndarray, bound: float) -> float:
     return count / len(values)
 
 
-@compiled
+@sparing
 def rise(energy: np.ndarray, time: np.ndarray, until: float) -> tuple[float, float]:
     """Return the first finite energy of times up to `until`, NaN without one, and the largest rise after any.
 
@@ -128,7 +128,7 @@ def rise(energy: np.ndarray, time: np.ndarray, until: float) -> tuple[float, flo
     return first, largest
 
 
-@compiled
+@sparing
 def running_mean_peak(values: np.ndarray, time: np.ndarray, span: float) -> tuple[float, float]:
     """Return the largest size of the mean of values, linear between times, over a span, and when that span begins.
 

@@ -8,7 +8,7 @@ import numpy as np
 from subslide import naming, points
 from subslide.keys import measured
 from subslide.keys.entries import ENTRIES
-from subslide.records import asked, scalars
+from subslide.records import measures, options, scalars
 
 if TYPE_CHECKING:
     from subslide.solver.run import Run
@@ -38,11 +38,18 @@ WORDS = {
 }
 """Texts that a run says of itself, by name, and their meaning."""
 
+SOLVED = ("model", "grid")
+"""Those that stand for a key of the study."""
+
 BESIDE = {"step": "time", "snapshot": "snapshot_time", "cell": "x", "gauge": "gauge_x gauge_y"}
 """Variables that hold the places along a dimension."""
 
 
-def variables(runs: list["Run"]) -> dict[str, Variable]:
+SELECTING = ("id", "a_H", "a_2", "r", "delta")
+"""Coordinates of a run that each of its variables names; `status` names all, and readers take them from any."""
+
+
+def variables(runs: list["Run"], first: int = 0) -> dict[str, Variable]:
     """Return the variables of a record by name.
 
     Shorter runs are padded with NaN. Profiles of runs of one cell size lie on the union of their grids, which match
@@ -53,6 +60,13 @@ def variables(runs: list["Run"]) -> dict[str, Variable]:
     ----------
     runs
         Results of `solver.solve`, thinned (`records.thinning`).
+    first
+        Number of the first run within its study; the others follow.
+
+    Returns
+    -------
+    dict
+        Variables by name.
 
     Raises
     ------
@@ -61,43 +75,71 @@ def variables(runs: list["Run"]) -> dict[str, Variable]:
     """
     inside, places = _no_grid(runs) or _shared_grid(runs) or _grids_apart(runs)
     record = {
+        "run": _numbers("run", len(runs), first),
         "front_threshold": _variable("front_threshold", np.array(naming.FRONT_THRESHOLDS)),
         **places,
     }
-    record.update(_scalars(runs))
+    stated = _asked(runs)
+    record |= stated | _scalars(runs)
     for name in ("time", *(name for name in naming.SERIES if hasattr(runs[0], name))):
         record[name] = _variable(name, _padded([getattr(run, name) for run in runs]))
     record["snapshot_time"] = _variable("snapshot_time", _padded([run.snapshot_time for run in runs]))
     if places:
         record["x"].attrs["axis"] = "X"
         record.update(_profiles(runs, inside, places["x"].dims[-1]))
-    for name, (dims, values) in asked.arrays(runs, inside, places["x"].dims[-1] if places else "x").items():
+    for name, (dims, values) in measures.arrays(
+        runs, inside, places["x"].dims[-1] if places else "x"
+    ).items():
         record[name] = _variable(name, values, dims)
     for name, variable in record.items():
-        if variable.dims[:1] == ("run",) and name != "id":
+        if variable.dims[:1] == ("run",) and name not in ("run", *stated):
             beside = [BESIDE[dim] for dim in variable.dims if name not in BESIDE.get(dim, name).split()]
-            variable.attrs["coordinates"] = " ".join(["id", *beside])
+            chosen = [key for key in (stated if name == "status" else SELECTING) if key in stated]
+            variable.attrs["coordinates"] = " ".join([*chosen, *beside])
+    for dim in ("step", "snapshot", "cell", "gauge"):
+        sizes = [
+            variable.values.shape[variable.dims.index(dim)]
+            for variable in record.values()
+            if dim in variable.dims
+        ]
+        if sizes:
+            record[dim] = _numbers(dim, sizes[0])
     if any("y" in variable.dims for variable in record.values()):
         record["y"] = _variable("y", places["x"].values)
         record["y"].attrs["axis"] = "Y"
     return record
 
 
-def _scalars(runs: list["Run"]) -> dict[str, Variable]:
-    """Return the variables of one value a run, by name: its parameters, numerics and outcome."""
+def _asked(runs: list["Run"]) -> dict[str, Variable]:
+    """Return the coordinates of the runs, by name: their ids, keys of the study, and options of their scenes.
+
+    Any key may be an axis of the study, or become one: so all are coordinates, lest records of a study differ in them.
+    """
     record = {
         "id": Variable(("run",), _text([run.point.id for run in runs]), {"long_name": "name of the run"})
     }
     for key in PARAMETERS:
         record[key] = _parameter(key, [getattr(run.point, key) for run in runs])
     about = {"long_name": f"{ENTRIES['scene_options']['description']} (JSON)"}
-    options = [points.options_text(run.point) for run in runs]
-    record["scene_options"] = Variable(("run",), _text(options), about)
-    for name, meaning in WORDS.items():
+    stated = [points.options_text(run.point) for run in runs]
+    record["scene_options"] = Variable(("run",), _text(stated), about)
+    for name, option in options.of([run.point for run in runs]).items():
+        values = np.array(option.values, float) if option.is_number else _text(option.values)
+        record[name] = Variable(("run",), values, {"long_name": option.about})
+    for name in SOLVED:
+        texts = _text([getattr(run, name) for run in runs])
+        record[name] = Variable(("run",), texts, {"long_name": WORDS[name]})
+    return record
+
+
+def _scalars(runs: list["Run"]) -> dict[str, Variable]:
+    """Return the variables of one value a run, by name, that tell what came of it."""
+    record: dict[str, Variable] = {}
+    for name in (name for name in WORDS if name not in SOLVED):
         if name == "status":
             record["dx"] = Variable(("run",), _column(runs, "dx"), {"units": "m", "long_name": "cell size"})
         texts = _text([getattr(run, name) for run in runs])
-        record[name] = Variable(("run",), texts, {"long_name": meaning})
+        record[name] = Variable(("run",), texts, {"long_name": WORDS[name]})
     record["status"].attrs["comment"] = "; ".join(f"{k}: {v}" for k, v in naming.STATUSES.items())
     for name in naming.SCALARS:
         record[name] = _variable(name, _column(runs, name))
@@ -181,6 +223,11 @@ def _variable(name: str, values: np.ndarray, dims: tuple[str, ...] = ()) -> Vari
     if values.dtype.kind == "f" and dims != (name,):
         attrs["_FillValue"] = values.dtype.type(np.nan)
     return Variable(dims, values, attrs)
+
+
+def _numbers(name: str, count: int, first: int = 0) -> Variable:
+    """Return the coordinate of a dimension that is a number, from the first on; int32, which any format has."""
+    return _variable(name, np.arange(first, first + count, dtype=np.int32))
 
 
 def _parameter(key: str, values: list) -> Variable:

@@ -82,7 +82,7 @@ class Results(Tables):
     def parts(self, among: Iterable[StudyRun | Companion] | None = None) -> Iterator[list]:
         """Give runs in parts, in their order, so that the records of each take no more than MOST_BYTES."""
         runs = list(self.runs_of_study if among is None else among)
-        paths = {self._record_path(run.batch) for run in runs}
+        paths = map(self._record_path, {run.batch for run in runs})
         size = sum(path.stat().st_size for path in paths if path.exists())
         count = max(1, math.ceil(len(runs) / max(1, math.ceil(size / MOST_BYTES))))
         yield from (runs[first : first + count] for first in range(0, len(runs), count))
@@ -105,7 +105,7 @@ class Results(Tables):
         from subslide.records import netcdf
 
         verify(self._record_path(batch))
-        return netcdf.read(self._record_path(batch), names)
+        return netcdf.read(self._record_path(batch), names, vouched=True)
 
     def values(self, *names: str) -> dict[str, np.ndarray]:
         """Return numbers and texts of every run, of whole batches at once.

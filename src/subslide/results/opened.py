@@ -59,7 +59,7 @@ def trimmed(data: "xr.Dataset", name: str) -> "xr.Dataset":
         inside = np.isfinite(one["h2"].isel(snapshot=0).values)
         one = one.isel(dict.fromkeys(along, inside))
     if "cell" in one.dims and str(one["grid"].values) == "uniform":
-        one = one.assign_coords(x=one["x"].variable[0]).swap_dims(cell="x").drop_vars("cell_width")
+        one = one.assign_coords(x=one["x"].variable[0]).swap_dims(cell="x").drop_vars(["cell_width", "cell"])
     if one.attrs.get("keep") == "summary":
         one = one.load()
         time = one["time"].values

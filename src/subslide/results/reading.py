@@ -1,5 +1,6 @@
 """Tables of a study as they are read: held against their module and the study's runs, whatever their checksum says."""
 
+import operator
 import os
 from collections.abc import Sequence
 from pathlib import Path
@@ -151,12 +152,12 @@ def _check_runs(rows: "pd.DataFrame", runs: Sequence[StudyRun], numbers: Sequenc
     for key in ("numerics", *RUN_KEYS):
         if key not in rows:
             continue
-        asked = [_asked(run, key) for run in runs]
+        asked = _asked(runs, key)
         given = rows[key]
         same = (
             np.isclose(given, asked, rtol=1e-9, atol=0)
             if key in NUMBERS
-            else given.astype(str).to_numpy() == np.array(asked, object).astype(str)
+            else given.astype(str).to_numpy(object) == np.array(list(map(str, asked)), object)
         )
         if not np.all(same):
             run = runs[int(np.argmin(same))]
@@ -170,11 +171,11 @@ def _check_runs(rows: "pd.DataFrame", runs: Sequence[StudyRun], numbers: Sequenc
             raise ValueError(f"{column}: not all numbers are ones of a run that ended well")
 
 
-def _asked(run: StudyRun, key: str) -> Any:
-    """Return what the table of runs has for a key."""
+def _asked(runs: Sequence[StudyRun], key: str) -> list[Any]:
+    """Return what the table of runs has for a key, run by run."""
     if key == "numerics":
-        return run.numerics
+        return [run.numerics for run in runs]
     if key == "scene_options":
-        return options_text(run.point)
-    value = getattr(run.point, key)
-    return "rest" if key == "t_end" and value is None else value
+        return [options_text(run.point) for run in runs]
+    stated = list(map(operator.attrgetter(f"point.{key}"), runs))
+    return ["rest" if value is None else value for value in stated] if key == "t_end" else stated

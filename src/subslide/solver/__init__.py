@@ -143,7 +143,9 @@ def attempt(
     times = [t for t in point.profile_times if t <= end]
     model = build(point, box, DRY_DEPTH)
     room = room_for_waves(point, model)
-    clock = k.started()
+    stops = sorted({*times, end})
+    scaled = np.array(stops) / time_scale
+    clock = k.started(later=() if profiles else scaled)
     if point.t_end is None:
         clock[k.REST_FROM] = max(times[-1] / time_scale if times else 0.0, np.nextafter(0.0, 1.0))
     warm_up(model)
@@ -158,23 +160,32 @@ def attempt(
         clock, wall, snapshots = saved.clock, saved.wall, saved.snapshots
         kept = Samples(saved.samples)
 
+    def place() -> int:
+        """Return the place of the stop that the clock has; those before it, if no profiles are, are snapshots now."""
+        now = int(np.searchsorted(scaled, clock[k.STOP], "right")) - 1
+        snapshots.extend(taken(past, model, profiles, False) for past in stops[len(snapshots) : now])
+        return now
+
     def look(seconds: float) -> None:
         """Show how far the run has come, and save it if that is due."""
         watchers.observe(model, len(kept.taken) - 1, float(clock[k.NOW]))
         if progress:
             progress(clock[k.NOW] * time_scale)
         if keeper and keeper.due:
+            if not profiles:
+                place()
             state = model.state() | watchers.state()
             keeper.save(point, Saved(box, state, clock, kept.taken, snapshots, wall + seconds))
 
-    for stop in sorted({*times, end})[len(snapshots) :]:
-        clock[k.STOP] = stop / time_scale
+    for leg in range(len(snapshots), len(stops)):
+        clock[k.STOP] = scaled[leg]
         outcome, seconds = advance_to(model, clock, kept, look, bool(watchers.present))
         wall += seconds
         reached = clock[k.NOW] >= clock[k.STOP]
+        stop = stops[leg if profiles else place()]
         if reached and stop in times:
             snapshots.append(taken(stop, model, profiles, point.fields))
-        if outcome != k.REACHED:
+        if outcome != k.REACHED or not profiles:
             break
     if not (reached and stop in times):  # else the end has its snapshot
         last = float(clock[k.NOW] * time_scale)

@@ -5,10 +5,10 @@ import math
 import numpy as np
 
 from subslide.naming import ARREST
-from subslide.solver.compiled import compiled
+from subslide.solver.compiled import sparing
 
 
-@compiled
+@sparing
 def time_of_arrest(time: np.ndarray, front: np.ndarray) -> float:
     """Return since when a front has been as near to its last place as `naming.ARREST` says.
 

@@ -12,6 +12,7 @@ import numpy as np
 from subslide.kernels import cache, samples
 from subslide.kernels import clock as k
 from subslide.kernels.arrays import Track
+from subslide.kernels.jit import plain
 from subslide.keys.schema import ConfigError
 from subslide.models.model import Model
 from subslide.naming import FRONT_THRESHOLDS
@@ -32,11 +33,10 @@ COMPILING = "subslide: compiling the kernels of this model, once: about a minute
 WAITING = "subslide: waiting for another process that compiles the kernels of this model: about a minute"
 NOT_KEPT = "subslide: compiled kernels are not kept, so the next run compiles anew: "
 
-_threads: list[int] = []
-"""How many threads solve, once that has been said."""
-
 _loaded: set[tuple[type, ...]] = set()
 """Compiled code that this process has used."""
+
+goes_on = plain(k.goes_on)
 
 
 def thresholds(model: Model) -> tuple[float, ...]:
@@ -47,11 +47,10 @@ def thresholds(model: Model) -> tuple[float, ...]:
 
 def start_threads(threads: int) -> None:
     """Make this many threads solve, as far as numba has them; ConfigError if its threading layer cannot be used."""
-    if _threads == [threads]:
-        return
     try:
-        numba.set_num_threads(max(1, min(threads, numba.config.NUMBA_NUM_THREADS)))
-        _threads[:] = [threads]
+        wanted = max(1, min(threads, numba.config.NUMBA_NUM_THREADS))
+        if numba.get_num_threads() != wanted:
+            numba.set_num_threads(wanted)
     except (ImportError, RuntimeError, ValueError):
         layer = os.environ.get("NUMBA_THREADING_LAYER", "default")
         raise ConfigError(
@@ -140,7 +139,7 @@ def advance_to(
     model
         What is run.
     clock
-        Scaled times, see `kernels.clock`; the loop moves it on.
+        Scaled times, see `kernels.clock`; the loop moves it on, past its stop if there are later ones.
     kept
         Gets the samples of this loop.
     look
@@ -168,5 +167,5 @@ def advance_to(
         look(wall)
         if outcome == k.NO_ROOM:
             model.make_room(float(clock[k.NOW]))
-        elif outcome != k.FULL:
+        elif outcome != k.FULL and not goes_on(clock, track.counters):
             return outcome, wall

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from subslide.keys import kept, measured, words
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
-from subslide.study import choice, cost, pace, rows
+from subslide.study import choice, cost, numbering, pace, rows
 from subslide.study.yaml_files import read_text
 
 PROCESS = 1.2
@@ -30,13 +30,14 @@ MOST_BATCH_BYTES = 100_000_000
 
 
 class Spec(NamedTuple):
-    """What a batch file states: points in order, and what is kept of each run."""
+    """What a batch file states: points in order, what is kept of each run, and the number of the first."""
 
     points: list[Point]
     keep: str
+    first: int = 0
 
 
-def spec_text(points: Iterable[Point], keep: str = "all") -> str:
+def spec_text(points: Iterable[Point], keep: str = "all", first: int = 0) -> str:
     """Return the text of the file that states a batch.
 
     Parameters
@@ -45,17 +46,21 @@ def spec_text(points: Iterable[Point], keep: str = "all") -> str:
         Its points, in order.
     keep
         What is kept of each run, one of `subslide.keys.kept.WORDS`.
+    first
+        Number of the first run within its study; the others follow.
 
     Returns
     -------
     str
         JSON.
     """
-    return rows.text({"keep": keep}, {"points": (({"id": point.id}, point) for point in points)})
+    return rows.text(
+        {"keep": keep, numbering.KEY: first}, {"points": (({"id": point.id}, point) for point in points)}
+    )
 
 
 def read_batch(spec: Path | str) -> Spec:
-    """Return what a batch file states; one of before there was a choice keeps all.
+    """Return what a batch file states; one of an older version keeps all, and numbers its runs from 0.
 
     Parameters
     ----------
@@ -65,7 +70,7 @@ def read_batch(spec: Path | str) -> Spec:
     Returns
     -------
     Spec
-        Its points, each checked, and what is kept of each run.
+        Its points, each checked, what is kept of each run, and the number of the first.
 
     Raises
     ------
@@ -77,7 +82,7 @@ def read_batch(spec: Path | str) -> Spec:
     try:
         batch = json.loads(text)
         listed, kernels = batch["points"], batch.get("kernels")  # which an older version stated
-        keep = batch.get("keep", "all")
+        keep, first = batch.get("keep", "all"), batch.get(numbering.KEY, 0)
     except KeyError as error:
         raise ConfigError(f"{spec}: not a batch file: the key {error} is missing") from None
     except RecursionError:
@@ -92,6 +97,10 @@ def read_batch(spec: Path | str) -> Spec:
     if keep not in kept.WORDS:
         raise ConfigError(
             f"{spec}: keep: {words.show(keep)} is not allowed; allowed: {', '.join(kept.WORDS)}"
+        )
+    if not numbering.is_first(first, len(listed)):
+        raise ConfigError(
+            f"{spec}: {numbering.KEY}: {words.show(first)} is not allowed; allowed: a whole number from 0"
         )
     points: dict[str, Point] = {}
     try:
@@ -108,7 +117,7 @@ def read_batch(spec: Path | str) -> Spec:
                 f"{spec}: points[{number}]: {point.id} stands there twice; allowed: each point once"
             )
         points[point.id] = point
-    return Spec(list(points.values()), keep)
+    return Spec(list(points.values()), keep, first)
 
 
 class Sharing(NamedTuple):

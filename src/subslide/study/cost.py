@@ -30,7 +30,7 @@ SECONDS_PER_CELL = {
 GENERAL = 2.3
 """Times as many with the general ones."""
 WATCHED, WATCHED_CELL = 1.2e-4, 3e-8
-"""Seconds more of a step of a run with gauges or footprints, which stops after each; and of a cell of the plane."""
+"""Seconds more of a step of a run with gauges or footprints, which stops after each, and of each cell of the plane."""
 
 REST = 1.8
 """Time to rest over 1/m in R / sqrt(g H2 (1-r))."""

@@ -20,7 +20,7 @@ from subslide.files import RecordError
 from subslide.keys import kept
 from subslide.keys.schema import ConfigError
 from subslide.points import Point, from_dict
-from subslide.study import cost, pace, rows
+from subslide.study import cost, numbering, pace, rows
 from subslide.study.batches import MOST_BATCH_BYTES, Sharing, of_one_record, spec_text, split
 from subslide.study.config import Study
 
@@ -71,12 +71,16 @@ class Batch(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """Name of a study, what it keeps of each run, batches that hold its points by name, and the text of points.json."""
+    """Name of a study, what it keeps of each run, batches that hold its points by name, the text of points.json.
+
+    And the number of a run that comes next, once those of its batches have theirs.
+    """
 
     study: str
     keep: str
     batches: dict[str, Batch]
     points_text: str
+    next_run: int
 
     @property
     def to_solve(self) -> dict[str, tuple[int, float]]:
@@ -135,9 +139,11 @@ def plan(study: Study, folder: Path, cores: int = 2) -> Plan:
     """
     asked = {point.id: point for point in study.solved}
     stated = {}
+    next_run = numbering.kept(folder)
     for path in ledger_files(folder):
         if entry := _entry(path, record_path(folder, path.stem), asked, study.keep_at_least):
             stated[path.stem] = entry
+            next_run = max(next_run, entry.first + entry.runs)
     owner: dict[str, str] = {}
     for name in sorted(stated, key=lambda name: (stated[name].state != WHOLE, name)):
         for id_ in stated[name].ids:
@@ -148,15 +154,21 @@ def plan(study: Study, folder: Path, cores: int = 2) -> Plan:
         if points and entry.state == WHOLE:
             batches[name] = Batch(name, points, entry.digest)
         elif points:
-            batches[name] = _to_solve(name, of_one_record(points, study.keep), study.keep, *entry.state)
+            points = of_one_record(points, study.keep)
+            again = bool(entry.first) and len(points) == entry.runs  # the same runs have the same numbers
+            first = entry.first if again else next_run
+            next_run += 0 if again else len(points)
+            batches[name] = _to_solve(name, spec_text(points, study.keep, first), points, *entry.state)
     owner = {point.id: name for name, batch in batches.items() for point in batch.points}
     new = [point for point in asked.values() if point.id not in owner]
     sharing = Sharing(study.keep, study.batch_seconds, cores, pace.known())
     last = max((int(path.stem.partition("p")[0]) for path in ledger_files(folder)), default=0)
     for number, unsolved in enumerate(split(new, sharing), last + 1):
-        batches[f"{number:04d}"] = _to_solve(f"{number:04d}", tuple(unsolved), study.keep)
+        text = spec_text(unsolved, study.keep, next_run)
+        batches[f"{number:04d}"] = _to_solve(f"{number:04d}", text, tuple(unsolved))
+        next_run += len(unsolved)
     owner |= {point.id: batch.name for batch in batches.values() for point in batch.points}
-    return Plan(study.name, study.keep, dict(sorted(batches.items())), _index(study, owner))
+    return Plan(study.name, study.keep, dict(sorted(batches.items())), _index(study, owner), next_run)
 
 
 def check_folders(folder: Path, home: Path) -> None:
@@ -184,18 +196,22 @@ def check_folders(folder: Path, home: Path) -> None:
 
 
 class _Entry(NamedTuple):
-    """One file of the ledger: the ids that are asked for, in order, the hash of its bytes, and how its record is."""
+    """One file of the ledger: the ids that are asked for, in order, the hash of its bytes, and how its record is.
+
+    And the number of its first run, 0 if it states none, and how many it has.
+    """
 
     ids: list[str]
     digest: str
     state: tuple[str, bool]
+    first: int
+    runs: int
 
 
 def _to_solve(
-    name: str, points: tuple[Point, ...], keep: str, fault: str = "", damaged: bool = False
+    name: str, text: str, points: tuple[Point, ...], fault: str = "", damaged: bool = False
 ) -> Batch:
-    """Return a batch that is to be solved."""
-    text = spec_text(points, keep)
+    """Return a batch that is to be solved, with the text that states it."""
     return Batch(name, points, text_hash(text), text, fault, damaged)
 
 
@@ -234,11 +250,12 @@ def _entry(path: Path, record: Path, asked: dict[str, Point], keep: str) -> _Ent
         digest = text_hash(text)
         state = _state(record, digest, POORER if kept.is_less(kept_of_each, keep) else "")
         shared = batch.get(rows.SHARED, {})
+        first = batch.get(numbering.KEY, 0)
         if state[0] not in VOUCHED and not all(_states({**shared, **stated[id_]}, id_) for id_ in ids):
             return None
     except (OSError, ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):
         return None
-    return _Entry(ids, digest, state)
+    return _Entry(ids, digest, state, first if numbering.is_first(first, len(stated)) else 0, len(stated))
 
 
 def _states(row: dict, id_: str) -> bool:

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from subslide import checksums
-from subslide.study import plan
+from subslide.study import numbering, plan
 from subslide.study.config import Study
 
 
@@ -30,11 +30,14 @@ def prune(study: Study, folder: Path) -> Pruned:
     Pruned
         What was removed. A batch of which one point is asked for stays whole.
     """
-    held = plan.plan(study, folder).batches
+    planned = plan.plan(study, folder)
+    held = planned.batches
     records = [path for path in (folder / "records").glob("*.nc") if plan.NAME.fullmatch(path.stem)]
     names = {path.stem for path in (*records, *plan.ledger_files(folder))}
     freed = 0
     idle = sorted(name for name in names if name not in held)
+    if idle:
+        numbering.keep(folder, planned.next_run)  # those of runs that are removed are never given again
     for name in idle:
         record = plan.record_path(folder, name)
         for path in (folder / "batches" / f"{name}.json", record, checksums.beside(record)):

@@ -2,10 +2,11 @@
 
 import csv
 import io
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from numbers import Integral, Real
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
 
 LINES = 2000
 """Lines of a table that are made at once."""
+
+SPECIAL = re.compile('[,"\r\n]')
+"""What an entry of CSV is quoted for, or may be."""
 
 
 def lacking(name: str, results: "Results") -> str:
@@ -148,31 +152,66 @@ def csv_parts(columns: Mapping[str, Sequence | np.ndarray], float_format: str = 
     number = float_format.__mod__ if float_format else repr
     written = [_writer_of(entries, number) for entries in columns.values()]
     count = max(map(len, columns.values()), default=0)
-    for first in range(-1, count, LINES):
-        text = io.StringIO()
-        writer = csv.writer(text, lineterminator="\n")
-        if first < 0:
-            writer.writerow(columns)
-        part = slice(max(0, first), first + LINES)
-        entries = [write(values[part]) for write, values in zip(written, columns.values(), strict=True)]
-        writer.writerows(zip(*entries, strict=True))
-        yield text.getvalue()
+    yield ",".join(map(_quoted, columns)) + "\n"
+    for first in range(0, count, LINES):
+        part = slice(first, first + LINES)
+        lines = map(",".join, zip(*(write(part) for write in written), strict=True))
+        yield "\n".join(lines) + "\n"
 
 
 def _writer_of(
     entries: Sequence | np.ndarray, number: Callable[[float], str]
-) -> Callable[[Any], Iterable[str]]:
-    """Return a function from entries of a column to their texts: a whole number is one only where all are."""
+) -> Callable[[slice], Iterable[str]]:
+    """Return a function that gives part of a column as texts: a whole number is one only where all are."""
     if isinstance(entries, np.ndarray) and entries.dtype.kind == "f":
-        return lambda part: ("" if entry != entry else number(entry) for entry in part.tolist())
-    if isinstance(entries, np.ndarray) and entries.dtype.kind in "iu":
-        return lambda part: map(str, part.tolist())
-    known = [entry for entry in entries if not _missing(entry)]
+        return lambda part: ["" if entry != entry else number(entry) for entry in entries[part].tolist()]
+    values: list = entries.tolist() if isinstance(entries, np.ndarray) else list(entries)
+    kinds = set(map(type, values))
+    if kinds == {str}:
+        return lambda part: _all_quoted(values[part])
+    if kinds == {type(None)}:
+        return lambda part: [""] * len(values[part])
+    if kinds == {int}:
+        return lambda part: map(str, values[part])
+    if kinds == {float}:
+        texts = _Texts(number)
+        return lambda part: map(texts.__getitem__, values[part])
+    known = [entry for entry in values if not _missing(entry)]
     if not all(isinstance(entry, Real) and not isinstance(entry, bool) for entry in known):
-        return lambda part: ("" if _missing(entry) else str(entry) for entry in part)
-    if len(known) == len(entries) and all(isinstance(entry, Integral) for entry in known):
-        return lambda part: (str(int(entry)) for entry in part)
-    return lambda part: ("" if _missing(entry) else number(float(entry)) for entry in part)
+        return lambda part: ["" if _missing(entry) else _quoted(str(entry)) for entry in values[part]]
+    if len(known) == len(values) and all(isinstance(entry, Integral) for entry in known):
+        return lambda part: [str(int(entry)) for entry in values[part]]
+    return lambda part: ["" if _missing(entry) else number(float(entry)) for entry in values[part]]
+
+
+class _Texts(dict[float, str]):
+    """Texts of numbers, each made once for those of a column of few; 0.0 and -0.0 are one key, and are made anew."""
+
+    def __init__(self, number: Callable[[float], str]) -> None:
+        """Keep the function that makes them."""
+        super().__init__()
+        self.number = number
+
+    def __missing__(self, entry: float) -> str:
+        """Return the text of a number, '' for what is none."""
+        text = "" if entry != entry else self.number(entry)
+        if entry and len(self) < LINES:
+            self[entry] = text
+        return text
+
+
+def _all_quoted(texts: list[str]) -> list[str]:
+    """Return texts as entries of CSV."""
+    return [_quoted(text) for text in texts] if SPECIAL.search("\0".join(texts)) else texts
+
+
+def _quoted(text: str) -> str:
+    """Return a text as an entry of CSV, as the library would write it."""
+    if not SPECIAL.search(text):
+        return text
+    line = io.StringIO()
+    csv.writer(line, lineterminator="\n").writerow([text])
+    return line.getvalue()[:-1]
 
 
 def _missing(entry: object) -> bool:

@@ -3,6 +3,7 @@
 `COLUMNS_OF_RUN` states unit, meaning and value of each column in one place.
 """
 
+import operator
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -45,8 +46,8 @@ def _asked(key: str) -> Column:
     word = STANDS_FOR.get(key)
 
     def entries(runs: Runs, values: Values) -> list:
-        stated = (getattr(run.point, key) for run in runs)
-        return [word if value is None else value for value in stated]
+        stated = list(map(operator.attrgetter(f"point.{key}"), runs))
+        return stated if word is None else [word if value is None else value for value in stated]
 
     return Column(unit, meaning, entries)
 
@@ -167,7 +168,9 @@ def columns(results: "Results") -> dict[str, Sequence[Any] | np.ndarray]:
     of_bands = bands.summaries(results)
     for name in COLUMNS:
         if name not in entries:
-            entries[name] = [of_bands.get(run.id, {}).get(name) for run in runs]
+            entries[name] = (
+                [of_bands.get(run.id, {}).get(name) for run in runs] if of_bands else [None] * len(runs)
+            )
     return entries
 
 
