@@ -106,3 +106,16 @@ def test_being_watched_changes_no_bit(kind):
     np.testing.assert_array_equal(watched.time, alone.time)
     for name in (*naming.SERIES, "h2", "eta"):
         np.testing.assert_array_equal(getattr(watched, name), getattr(alone, name))
+
+
+@pytest.mark.parametrize("kind", ["radial", "quarter"])
+def test_gauges_are_the_same_where_no_profiles_are_kept(kind):
+    """There a loop goes on from stop to stop by itself."""
+    point = Point(
+        cells=60, t_end=TIMES[-1], snapshot_times=TIMES, gauges=PLACES, footprints=True, **MODELS[kind]
+    )
+    whole, short = solve(point), solve(point, profiles=False)
+    np.testing.assert_array_equal(short.time, whole.time)
+    assert set(short.measured) == {*naming.GAUGES}
+    for name in naming.GAUGES:
+        np.testing.assert_array_equal(short.measured[name], whole.measured[name])
