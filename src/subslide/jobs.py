@@ -55,8 +55,7 @@ def point_of(path: str | None, options: dict[str, str]) -> Point:
         if key == "scene_options" and isinstance(text, str):
             values[key] = scene_options.of_text(text, functools.partial(_value_of_text, name=names[key]))
         elif schema.properties()[key].get("type") == "array" and isinstance(text, str):
-            places = [_value_of_text(part, names[key]) for part in text.split(";")]
-            values[key] = [place if isinstance(place, list) else [place] for place in places]
+            values[key] = [_value_of_text(part, names[key]) for part in text.split(";")]
         else:
             values[key] = _value_of_text(text, names[key])
     if isinstance(values.get("snapshot_times"), int | float):
@@ -282,10 +281,9 @@ def summary(result: "Run") -> str:
         parts[0] += f" ({result.status_detail})"
     if np.isfinite(result.L_f[0]):
         parts.append(f"L_f = {result.L_f[0]:.4g} m = {result.L_f[0] / radius:.4g} R")
-    farthest = result.measured.get("runout_max")
-    if farthest is not None and np.isfinite(farthest[0]):
-        angle = result.measured["runout_max_direction"][0]
-        parts.append(f"runout up to {farthest[0]:.4g} m, at {angle:g} degrees")
+    farthest, at = (result.measured.get(f"runout_max{end}", [np.nan])[0] for end in ("", "_direction"))
+    if np.isfinite(farthest):
+        parts.append(f"runout up to {farthest:.4g} m, at {at:g} degrees")
     if np.isfinite(result.max_abs_eta).any():
         parts.append(f"peak max|η| = {np.nanmax(result.max_abs_eta):.4g} m")
     if np.isfinite(result.time_at_rest):

@@ -48,7 +48,8 @@ outline = record["runout"][0] * np.cos(angle), record["runout"][0] * np.sin(angl
 ```
 
 Footprints are of the run's steps, the start among them: in a cell whose `arrival_h2` is missing h2 never was 1 % of H2.
-`keep: series` keeps gauges and runout, `summary` runout alone.
+`keep: series` keeps gauges and runout, `summary` runout alone. Where a run is so long that its series are thinned,
+gauges have the same samples.
 
 The attribute `keep` says what a record holds beside the numbers of each run, which follow from all of its samples in
 any case. `all`: series and profiles. `series`: no profiles. `summary`: of {summary} the samples between which
