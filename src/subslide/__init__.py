@@ -12,11 +12,12 @@ from subslide._sources import SNAKEFILE as SNAKEFILE
 from subslide._sources import source_hash
 
 __version__ = "0.1.0"
-__all__ = ["Caution", "ConfigError", "Emulator", "__version__", "solve", "source_hash"]
+__all__ = ["Caution", "ConfigError", "Emulator", "__version__", "open_study", "solve", "source_hash"]
 LAZY = {
     "Caution": "subslide.library",
     "ConfigError": "subslide.keys.schema",
     "Emulator": "subslide.emulator",
+    "open_study": "subslide.results.dataset",
     "solve": "subslide.library",
 }
 """Modules of what is imported when it is asked for."""

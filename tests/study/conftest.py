@@ -66,13 +66,13 @@ def made_up_run(point: Point, steps: int = 20, grown: int = 0, **changes) -> Run
     return Run(series=series, **values | changes)
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def make_run():
     """Function that makes up the result of a point."""
     return made_up_run
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def solve_study():
     """Function that leaves a study in a folder as its jobs would; `solve(points)` gives the runs of a batch."""
 

@@ -100,7 +100,7 @@ def test_runs_on_one_uniform_grid_have_the_layout_of_before(make_run, cells, sea
     first = -round(4.2553 * 0.0705 / runs[0].dx) if plane else 0
     last = max(len(run.x) if run.x[0] > 0 else len(run.x) // 2 for run in runs)
     np.testing.assert_array_equal(record["x"].values, (np.arange(first, last) + 0.5) * runs[0].dx)
-    assert record["x"].attrs.keys() == {"units", "long_name", "axis"}
+    assert record["x"].attrs.keys() == {"units", "long_name"}  # by an axis, readers take it for a longitude
     assert "cell_width" not in record
     assert not any("cell" in variable.dims for variable in record.values())
     for name in PROFILES:

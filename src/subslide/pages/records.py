@@ -10,7 +10,8 @@ INTRODUCTION = """# Records
 
 `subslide run` writes one run, a study one file for each batch of runs, in one layout (NetCDF-4, CF-1.11): every
 variable of a run has the dimension `run`, of length 1 for a single run. Runs that are shorter, or lie in a smaller box,
-than others of their batch end in NaN. `results/<study>/points.json` says which batch holds which `id`:
+than others of their batch end in NaN. [opening.md](opening.md) says how to open the records of a study as one dataset;
+`results/<study>/points.json` which batch holds which `id`:
 
 ```python
 from subslide.results import Results

@@ -66,6 +66,8 @@ def attributes(runs: list["Run"], variables: dict[str, Variable], keep: str) -> 
         "machine": platform.machine(),
         "config": json.dumps(stated, allow_nan=False),
     }
+    if "h2" not in variables:
+        attrs["coordinates"] = "snapshot_time"  # xarray's convention: no variable along snapshots can name it
     if len(runs) == 1:
         attrs.update({name: variables[name].values[0] for name in STATED})
     return attrs

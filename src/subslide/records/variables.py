@@ -85,7 +85,6 @@ def variables(runs: list["Run"], first: int = 0) -> dict[str, Variable]:
         record[name] = _variable(name, _padded([getattr(run, name) for run in runs]))
     record["snapshot_time"] = _variable("snapshot_time", _padded([run.snapshot_time for run in runs]))
     if places:
-        record["x"].attrs["axis"] = "X"
         record.update(_profiles(runs, inside, places["x"].dims[-1]))
     for name, (dims, values) in measures.arrays(
         runs, inside, places["x"].dims[-1] if places else "x"
@@ -106,7 +105,6 @@ def variables(runs: list["Run"], first: int = 0) -> dict[str, Variable]:
             record[dim] = _numbers(dim, sizes[0])
     if any("y" in variable.dims for variable in record.values()):
         record["y"] = _variable("y", places["x"].values)
-        record["y"].attrs["axis"] = "Y"
     return record
 
 

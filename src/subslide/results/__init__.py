@@ -10,7 +10,7 @@ import numpy as np
 
 from subslide.results.listing import Companion, StudyRun, verify
 from subslide.results.of_tables import Tables
-from subslide.results.opened import NotKeptError, open_record, positions, trimmed  # noqa: F401
+from subslide.results.opened import NotKeptError, alike, open_record, positions, trimmed  # noqa: F401
 
 if TYPE_CHECKING:
     import xarray as xr

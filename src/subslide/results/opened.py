@@ -1,14 +1,16 @@
-"""Records as xarray opens them: whole, or one run of one."""
+"""Records as xarray opens them: whole, alike, or one run of one."""
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from subslide import naming
 from subslide.files import RecordError
 from subslide.keys.schema import ConfigError
-from subslide.records import thinning
+from subslide.records import options, thinning
 from subslide.results.listing import AGAIN
 
 if TYPE_CHECKING:
@@ -19,13 +21,85 @@ class NotKeptError(RecordError):
     """A record that is as it should be, but was made without the profiles that are asked for."""
 
 
-def open_record(path: Path | str) -> "xr.Dataset":
-    """Return the dataset of a record, lazy (dask), with times as plain seconds; ConfigError if its path cannot be."""
+def open_record(path: Path | str, lazily: bool = True) -> "xr.Dataset":
+    """Return the dataset of a record, with times as plain seconds.
+
+    Parameters
+    ----------
+    path
+        The record.
+    lazily
+        Whether its variables are lazy arrays (dask); else each is read whole when it is asked for.
+
+    Returns
+    -------
+    xarray.Dataset
+        The record.
+
+    Raises
+    ------
+    ConfigError
+        If NetCDF cannot open its path.
+    """
     import xarray as xr
 
     if "\\" in os.path.abspath(path):
         raise ConfigError(f"{path}: NetCDF takes '\\' for '/'; allowed: a path, and folders, without backslashes")
-    return xr.open_dataset(path, engine="netcdf4", chunks={}, decode_times=False)
+    return xr.open_dataset(path, engine="netcdf4", chunks={} if lazily else None, decode_times=False)
+
+
+def are_on_one_grid(records: Sequence["xr.Dataset"]) -> bool:
+    """Return whether all records have profiles on uniform cells of one size, or none has any.
+
+    Parameters
+    ----------
+    records
+        Datasets of records.
+
+    Returns
+    -------
+    bool
+        False where joining them takes `alike`.
+    """
+    dims = {tuple(dim for dim in ("x", "cell") if dim in record.dims) for record in records}
+    sizes = {size for record in records for size in np.unique(record["dx"].values).tolist()}
+    return dims == {()} or (dims == {("x",)} and len(sizes) == 1)
+
+
+def alike(record: "xr.Dataset") -> "xr.Dataset":
+    """Return a record with profiles along `cell`, so that it can be joined with records of any grid, scene and `keep`.
+
+    It is what `xarray.open_mfdataset` takes as `preprocess` for a study of unlike records.
+
+    Parameters
+    ----------
+    record
+        Dataset of a record.
+
+    Returns
+    -------
+    xarray.Dataset
+        The same with positions `x` (run, snapshot, cell) and widths `cell_width` (run, snapshot, cell) of cells, if it
+        has profiles, and without fields of the plane. These, and options of scenes, are no coordinates, since other
+        records may lack them.
+    """
+    import xarray as xr
+
+    named = options.described(tuple(sorted({str(scene) for scene in record["scene"].values})))
+    record = record.reset_coords([name for name in named if name in record.coords]).set_coords("snapshot_time")
+    if "cell" in record.dims:
+        return record.reset_coords("x")
+    if "x" not in record.dims:
+        return record
+    sizes = {"run": record.sizes["run"], "snapshot": record.sizes["snapshot"], "cell": record.sizes["x"]}
+    x, dx = record["x"].variable, record["dx"].variable.compute()
+    fields = [name for name in (*naming.FIELDS_2D, "y") if name in record.variables]
+    record = record.drop_vars(["x", *fields]).rename_dims(x="cell")
+    places = {
+        "x": xr.Variable("cell", x.values, x.attrs).set_dims(sizes),
+        "cell_width": dx.set_dims(sizes).transpose(*sizes),
+    }
+    return record.assign(places).assign_coords(cell=np.arange(sizes["cell"], dtype=np.int32))
 
 
 def trimmed(data: "xr.Dataset", name: str) -> "xr.Dataset":
