@@ -111,7 +111,7 @@ def dataset(run: "Run") -> "xr.Dataset":
         told = {key: value for key, value in about.items() if key not in OF_FILES}
         held[name] = xr.Variable(rest, np.asarray(one, str if values.dtype.kind == "O" else None), told)
     coords = {name: held.pop(name) for name in tuple(held) if name in beside}
-    return xr.Dataset(held, coords, attrs)
+    return given.outcome_first(xr.Dataset(held, coords, attrs))
 
 
 def _signature() -> inspect.Signature:
