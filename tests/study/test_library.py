@@ -93,6 +93,13 @@ def test_bad_keys_are_refused_as_in_a_file_and_nothing_is_solved(keys, said, mon
     assert isinstance(refused.value, ValueError)
 
 
+def test_a_list_within_itself_is_refused_in_one_line():
+    endless = []
+    endless.append(endless)
+    with pytest.raises(ConfigError, match="solve: a value is within itself"):
+        subslide.solve(a_H=endless)
+
+
 def test_cautions_are_warnings_at_the_line_that_calls():
     with pytest.warns(subslide.Caution, match="caution, range") as said:
         subslide.solve(a_H=20, **SHORT)

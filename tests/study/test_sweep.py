@@ -15,6 +15,7 @@ import yaml
 from projects import Project
 
 import subslide
+from subslide import jobs
 from subslide.keys.schema import ConfigError
 from subslide.library import processes
 from subslide.results import Results
@@ -35,6 +36,12 @@ def _here(tmp_path, monkeypatch):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", subslide.Caution)
         yield
+
+
+@pytest.fixture
+def in_processes(monkeypatch):
+    """Also what the program would solve itself, being short, is solved in processes."""
+    monkeypatch.setattr(processes, "LEAST", 0)
 
 
 def script(text, *words, **options):
@@ -88,7 +95,8 @@ def test_a_sweep_is_the_product_of_its_lists_and_each_run_is_that_of_solve():
 
 
 def test_a_program_needs_no_guard_and_its_line_tells_the_points():
-    program = script(f"print(subslide.sweep(a_H=[1, 2], **{SHORT}).sizes['run'])")
+    apart = "from subslide.library import processes; processes.LEAST = 0"
+    program = script(f"{apart}; print(subslide.sweep(a_H=[1, 2], **{SHORT}).sizes['run'])")
     said, told = program.communicate(timeout=100)
     assert (program.returncode, said) == (0, "2\n")
     assert told.splitlines()[-1].startswith("2 of 2 points")
@@ -123,7 +131,8 @@ def test_a_folder_is_a_study_that_the_workflow_carries_on():
     ],
 )
 def test_bad_input_is_refused_and_nothing_is_written(call, said, monkeypatch):
-    monkeypatch.setattr(processes, "_started", lambda *_: pytest.fail("started"))
+    for name in ("_solve", "_solve_here"):
+        monkeypatch.setattr(processes, name, lambda *_: pytest.fail("started"))
     with pytest.raises(ConfigError) as refused:
         subslide.sweep(folder="results/mine", **call)
     assert str(refused.value).startswith(said)
@@ -172,12 +181,37 @@ def test_a_folder_that_another_program_is_at_work_in_is_refused(monkeypatch):
     maker.communicate(b"\n")
 
 
+@pytest.mark.usefixtures("in_processes")
 def test_a_process_that_fails_is_an_error_that_says_which_and_why(monkeypatch):
     monkeypatch.setenv("NUMBA_THREADING_LAYER", "abacus")
     with pytest.raises(subslide.BatchError) as failed:
         subslide.sweep(**SHORT, progress=False)
     line = "batch 0001 ended with status 2: subslide: NUMBA_THREADING_LAYER: abacus cannot be used"
     assert str(failed.value).startswith(line)
+    assert left() == []
+
+
+@pytest.mark.parametrize("folder", [None, "results/mine"])
+def test_an_interrupt_of_a_short_sweep_keeps_what_was_solved_in_its_folder(folder, monkeypatch):
+    solved, calls = jobs.solved, []
+
+    def interrupted(*arguments, **keys):
+        calls.append(arguments)
+        if len(calls) == 2:
+            raise KeyboardInterrupt
+        return solved(*arguments, **keys)
+
+    monkeypatch.setattr(jobs, "solved", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        subslide.sweep(a_H=[1, 2, 4], folder=folder, progress=False, **SHORT)
+    assert left() == []
+    assert [path.stem for path in Path().rglob("records/*.nc")] == ["0001p1"] * (folder is not None)
+
+
+def test_a_sweep_too_large_to_be_held_is_lazy_as_long_as_the_program_lasts():
+    small = "from subslide.library import studies; studies.MOST_HELD = 0"
+    program = script(f"{small}; print(float(subslide.sweep(**{SHORT}, progress=False).L_f.max()) > 0)")
+    assert program.communicate(timeout=100) == ("True\n", "")
     assert left() == []
 
 

@@ -79,13 +79,18 @@ def mapping(values: Any, what: str) -> dict[str, Any]:
     Raises
     ------
     ConfigError
-        If they are no mapping.
+        If they are no mapping, or nested without end.
     """
     if not isinstance(values, Mapping):
         raise ConfigError(
             f"{what}: {words.show(values)} is not allowed; allowed: a mapping of keys of a study"
         )
-    return dict(plain(values))
+    try:
+        return dict(plain(values))
+    except RecursionError:
+        raise ConfigError(
+            f"{what}: a value is within itself, or nested too deep; allowed: lists of values"
+        ) from None
 
 
 def warn(points: Iterable[Point], more: Iterable[str] = ()) -> None:

@@ -17,16 +17,19 @@ from pathlib import Path
 from typing import TextIO
 
 import subslide
-from subslide import checksums
-from subslide.files import write_text
+from subslide import checksums, jobs
+from subslide.files import Stopped, write_text
 from subslide.keys import words
 from subslide.keys.schema import ConfigError
-from subslide.library import given
+from subslide.library import given, one_run
 from subslide.study import locks, plan, progress, staging
 from subslide.study.config import Study
 
 LOOK = 0.05
 """Seconds between two looks at the processes."""
+
+LEAST = 0.5
+"""Seconds of runs, as estimated, below which the program solves them itself: a process takes longer to start."""
 
 SAID = 5_000
 """Bytes of a log's end that are read for its last line."""
@@ -68,7 +71,10 @@ def run(study: Study, folder: Path, cores: int, stream: TextIO | None) -> None:
             staging.tidy(folder, staged, ())
             staging.forget(folder, (batch for batch in planned.batches.values() if batch.text))
             with _shown(Path(home), planned, stream) as reporter:
-                _solve(folder, staged, list(planned.to_solve), cores, reporter)
+                if sum(seconds for _, seconds in planned.to_solve.values()) < LEAST:
+                    _solve_here(folder, staged, list(planned.to_solve))
+                else:
+                    _solve(folder, staged, list(planned.to_solve), cores, reporter)
         write_text(folder / "points.json", planned.points_text)
         checksums.seal(folder / "points.json")
 
@@ -152,6 +158,19 @@ def _shown(home: Path, planned: plan.Plan, stream: TextIO | None) -> Iterator[pr
         reporter.stop()
 
 
+def _solve_here(folder: Path, staged: staging.Staged, names: list[str]) -> None:
+    """Solve batches, by name, in this process."""
+    for name in names:
+        record, ledger, counts = _outputs(folder, staged, name)
+        with one_run.at_work(), open(_log(folder, name), "w", encoding="utf-8") as log:
+            try:
+                jobs.batch(
+                    str(staged.specs[name]), 1, record, ledger, lambda line: print(line, file=log), counts
+                )
+            except Stopped:
+                raise KeyboardInterrupt from None
+
+
 def _solve(
     folder: Path, staged: staging.Staged, waiting: list[str], cores: int, reporter: progress.Reporter
 ) -> None:
@@ -173,28 +192,24 @@ def _solve(
 
 def _started(folder: Path, staged: staging.Staged, name: str) -> subprocess.Popen:
     """Return the process of a batch, started; it ends when its standard input does, so with this process."""
-    record, ledger = plan.record_path(folder, name), folder / "batches" / f"{name}.json"
-    counts = progress.counter_path(staged.home, name)
-    command = [
-        "batch",
-        staged.specs[name],
-        "-o",
-        record,
-        "--ledger",
-        ledger,
-        "--counts",
-        counts,
-        "--attended",
-    ]
+    record, ledger, counts = _outputs(folder, staged, name)
+    spec = str(staged.specs[name])
+    command = ["batch", spec, "-o", record, "--ledger", ledger, "--counts", counts, "--attended"]
     with open(_log(folder, name), "wb") as log:
         return subprocess.Popen(
-            [sys.executable, "-P", "-m", "subslide", *map(str, command)],
+            [sys.executable, "-P", "-m", "subslide", *command],
             stdin=subprocess.PIPE,
             stdout=log,
             stderr=log,
             env=_environment(),
             process_group=0,  # Ctrl-C is for this process, which stops them
         )
+
+
+def _outputs(folder: Path, staged: staging.Staged, name: str) -> tuple[str, str, str]:
+    """Return the paths of the record of a batch, of its file in the ledger and of its counts."""
+    record, ledger = plan.record_path(folder, name), folder / "batches" / f"{name}.json"
+    return str(record), str(ledger), str(progress.counter_path(staged.home, name))
 
 
 def _environment() -> dict[str, str]:
