@@ -8,17 +8,27 @@ from typing import Any
 
 from subslide import _early  # noqa: F401 - the first, since it hears signals while the others load
 from subslide._cache import set_cache_folder
-from subslide._sources import SNAKEFILE as SNAKEFILE
-from subslide._sources import source_hash
+from subslide._sources import SNAKEFILE, source_hash
 
 __version__ = "0.1.0"
-__all__ = ["Caution", "ConfigError", "Emulator", "__version__", "open_study", "solve", "source_hash"]
+__all__ = [
+    "SNAKEFILE",
+    "BatchError",
+    "Caution",
+    "ConfigError",
+    "Emulator",
+    "Study",
+    "__version__",
+    "open_study",
+    "solve",
+    "source_hash",
+    "sweep",
+]
 LAZY = {
-    "Caution": "subslide.library",
     "ConfigError": "subslide.keys.schema",
     "Emulator": "subslide.emulator",
     "open_study": "subslide.results.dataset",
-    "solve": "subslide.library",
+    **dict.fromkeys(("BatchError", "Caution", "Study", "solve", "sweep"), "subslide.library"),
 }
 """Modules of what is imported when it is asked for."""
 

@@ -16,6 +16,21 @@ from subslide.library import one_run
 from subslide.records import netcdf
 from subslide.study.config import make_point
 
+PROGRAM = """import subslide
+
+reveal_type(subslide.solve(a_H=2, r=0.6))
+reveal_type(subslide.sweep(a_H=[1, 2], cores=2, folder="results/mine"))
+study = subslide.Study.from_yaml("mine.yaml")
+reveal_type(len(study))
+reveal_type(study.points)
+reveal_type(study.run(cores=2))
+try:
+    subslide.open_study("results/mine")
+except (subslide.ConfigError, subslide.BatchError) as error:
+    print(error)
+"""
+"""A user's program."""
+
 SHORT = {"cells": 20, "t_end": 0.05, "a_2": 0.56}
 
 
@@ -78,6 +93,13 @@ def test_bad_keys_are_refused_as_in_a_file_and_nothing_is_solved(keys, said, mon
     assert isinstance(refused.value, ValueError)
 
 
+def test_a_list_within_itself_is_refused_in_one_line():
+    endless = []
+    endless.append(endless)
+    with pytest.raises(ConfigError, match="solve: a value is within itself"):
+        subslide.solve(a_H=endless)
+
+
 def test_cautions_are_warnings_at_the_line_that_calls():
     with pytest.warns(subslide.Caution, match="caution, range") as said:
         subslide.solve(a_H=20, **SHORT)
@@ -122,6 +144,28 @@ def test_the_page_on_the_library_runs(root, tmp_path, monkeypatch):
         exec("".join(blocks), {})
 
 
+@pytest.mark.long
+def test_a_program_that_calls_the_library_is_typed(tmp_path):
+    (tmp_path / "mine.py").write_text(PROGRAM)
+    words = ["--strict", "--follow-imports=silent", "--no-incremental", "mine.py"]
+    done = subprocess.run(
+        [sys.executable, "-m", "mypy", *words], cwd=tmp_path, capture_output=True, text=True
+    )
+    revealed = [
+        line.partition("note: ")[2].replace("builtins.", "")
+        for line in done.stdout.splitlines()
+        if "note: " in line
+    ]
+    assert done.returncode == 0, done.stdout
+    assert revealed == [
+        'Revealed type is "xarray.core.dataset.Dataset"',
+        'Revealed type is "xarray.core.dataset.Dataset"',
+        'Revealed type is "int"',
+        'Revealed type is "tuple[subslide.points.Point, ...]"',
+        'Revealed type is "xarray.core.dataset.Dataset"',
+    ]
+
+
 def test_type_checkers_see_all_that_the_package_offers():
     """Their file names what `__init__` does, and no more."""
     import ast
@@ -130,4 +174,4 @@ def test_type_checkers_see_all_that_the_package_offers():
     stub = ast.parse(Path(subslide.__file__).with_suffix(".pyi").read_text(encoding="utf-8"))
     offered = {alias.name for node in stub.body if isinstance(node, ast.ImportFrom) for alias in node.names}
     assert {*offered, "__version__"} == set(subslide.__all__)
-    assert set(subslide.__all__) - set(subslide.LAZY) == {"__version__", "source_hash"}
+    assert set(subslide.__all__) - set(subslide.LAZY) == {"SNAKEFILE", "__version__", "source_hash"}

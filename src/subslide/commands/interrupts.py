@@ -44,6 +44,19 @@ def listen() -> None:
     threading.Thread(target=_watch, args=(reader,), daemon=True).start()
 
 
+def end_with_input() -> None:
+    """End as after SIGTERM once standard input ends: the program that holds it is gone, and nobody waits."""
+    threading.Thread(target=_listen_to_input, daemon=True).start()
+
+
+def _listen_to_input() -> None:
+    """Wait for the end of standard input."""
+    with contextlib.suppress(OSError):
+        while os.read(0, 1024):
+            pass
+    os.kill(os.getpid(), signal.SIGTERM)
+
+
 def _hear(number: int, frame: FrameType | None) -> NoReturn:
     """Raise what a signal means."""
     _heard.set()

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from subslide.commands import cli
+from subslide.commands import cli, interrupts
 from subslide.keys import words
 from subslide.keys.schema import ConfigError
 
@@ -23,11 +23,18 @@ MOST_BYTES = 1_000_000_000
     "--ledger", metavar="FILE.json", help="the study's file of this batch, written once its record is whole"
 )
 @click.option("--counts", metavar="FILE", help="file that counts the runs that have ended, for whoever waits")
+@click.option(
+    "--attended", is_flag=True, hidden=True
+)  # ends with standard input: with the program that started it
 @click.option("-o", "--output", required=True, metavar="FILE.nc", help="record to write (NetCDF-4)")
-def batch(spec: str, threads: int, ledger: str | None, counts: str | None, output: str) -> None:
+def batch(
+    spec: str, threads: int, ledger: str | None, counts: str | None, attended: bool, output: str
+) -> None:
     """Solve the points of a batch file, SPEC, into one record with its SHA-256 beside it."""
     from subslide import jobs
 
+    if attended:
+        interrupts.end_with_input()
     jobs.set_threads(threads)
     jobs.batch(spec, threads, output, ledger, click.echo, counts)
 

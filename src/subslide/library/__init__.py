@@ -2,5 +2,7 @@
 
 from subslide.library.given import Caution
 from subslide.library.one_run import solve
+from subslide.library.processes import BatchError
+from subslide.library.studies import Study, sweep
 
-__all__ = ["Caution", "solve"]
+__all__ = ["BatchError", "Caution", "Study", "solve", "sweep"]

@@ -4,12 +4,29 @@ import os
 import sys
 import warnings
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from subslide.keys import words
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
 from subslide.study import cautions, notes
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+FIRST = (
+    *(
+        "status",
+        "status_detail",
+        "L_f",
+        "time_of_arrest",
+        "time_at_rest",
+        "max_abs_eta_peak",
+        "eta_gauge_peak",
+    ),
+    *("x_front", "max_abs_eta", "max_abs_eta_outside", "eta_gauge", "h2", "eta"),
+)
+"""Variables of a data set that are shown first."""
 
 HOME = os.path.dirname(os.path.abspath(__file__))
 """Folder of the modules whose lines no warning names."""
@@ -62,13 +79,18 @@ def mapping(values: Any, what: str) -> dict[str, Any]:
     Raises
     ------
     ConfigError
-        If they are no mapping.
+        If they are no mapping, or nested without end.
     """
     if not isinstance(values, Mapping):
         raise ConfigError(
             f"{what}: {words.show(values)} is not allowed; allowed: a mapping of keys of a study"
         )
-    return dict(plain(values))
+    try:
+        return dict(plain(values))
+    except RecursionError:
+        raise ConfigError(
+            f"{what}: a value is within itself, or nested too deep; allowed: lists of values"
+        ) from None
 
 
 def warn(points: Iterable[Point], more: Iterable[str] = ()) -> None:
@@ -84,6 +106,22 @@ def warn(points: Iterable[Point], more: Iterable[str] = ()) -> None:
     points = list(points)
     for line in (*cautions.cautions(points), *notes.notes(points), *more):
         warnings.warn(words.printable(line), Caution, stacklevel=_caller())
+
+
+def outcome_first(data: "xr.Dataset") -> "xr.Dataset":
+    """Return a data set whose variables stand in the order in which a notebook shows them best.
+
+    Parameters
+    ----------
+    data
+        A run, or a study.
+
+    Returns
+    -------
+    xarray.Dataset
+        The same: how it ended, how far it ran and what waves it made come first.
+    """
+    return data[sorted(data.data_vars, key=lambda name: FIRST.index(name) if name in FIRST else len(FIRST))]
 
 
 def _caller() -> int:

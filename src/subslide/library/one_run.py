@@ -1,8 +1,9 @@
 """One run in a program: keys in, the data set of its record out."""
 
+import contextlib
 import inspect
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -57,8 +58,9 @@ def solve(
     """
     point = _point(given.mapping(keys, "solve"))
     show = shown.of_run(point) if progress is True else progress or None
-    with _alone:
-        return dataset(_solved(point, threads, show))
+    with at_work():
+        run = jobs.solved(point, threads, show)
+    return dataset(run)
 
 
 def _point(values: dict[str, Any]) -> Point:
@@ -72,15 +74,22 @@ def _point(values: dict[str, Any]) -> Point:
     return point
 
 
-def _solved(point: Point, threads: int, show: Callable[[float], object] | None) -> "Run":
-    """Return the run of a point; the program's own number of threads for numba stays what it is."""
+@contextlib.contextmanager
+def at_work() -> Iterator[None]:
+    """Hold a block in which the program solves: no other thread does, and its number of threads for numba stays."""
     import numba
 
-    before = numba.get_num_threads()
-    try:
-        return jobs.solved(point, threads, show)
-    finally:
-        numba.set_num_threads(before)
+    before = 0
+    with contextlib.suppress(
+        ImportError, RuntimeError, ValueError
+    ):  # of no threading layer, as the solver will say
+        before = numba.get_num_threads()
+    with _alone:
+        try:
+            yield
+        finally:
+            if before:
+                numba.set_num_threads(before)
 
 
 def dataset(run: "Run") -> "xr.Dataset":
@@ -111,7 +120,7 @@ def dataset(run: "Run") -> "xr.Dataset":
         told = {key: value for key, value in about.items() if key not in OF_FILES}
         held[name] = xr.Variable(rest, np.asarray(one, str if values.dtype.kind == "O" else None), told)
     coords = {name: held.pop(name) for name in tuple(held) if name in beside}
-    return xr.Dataset(held, coords, attrs)
+    return given.outcome_first(xr.Dataset(held, coords, attrs))
 
 
 def _signature() -> inspect.Signature:

@@ -1,5 +1,6 @@
 """What a study's folder lists, and its tables as they were last written."""
 
+import contextlib
 import csv
 import functools
 from collections.abc import Iterable
@@ -9,9 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from subslide import catalogue
+from subslide.files import RecordError
 from subslide.keys.schema import ConfigError
 from subslide.results import reading
 from subslide.results.listing import Companion, Listing, StudyRun, listed, verify
+from subslide.study import shown
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -29,6 +32,23 @@ class Tables:
     def __init__(self, folder: Path | str):
         """Keep the folder; nothing is read before it is asked for."""
         self.folder = Path(folder)
+
+    def __repr__(self) -> str:
+        """Return the call that makes this; nothing is read."""
+        return f"{type(self).__name__}({str(self.folder)!r})"
+
+    def _repr_html_(self) -> str | None:
+        """Return the study as a notebook shows it: axes, tables, and how runs ended as far as one says so."""
+        try:
+            runs = [(run.numerics, run.point) for run in self.runs_of_study]
+        except (ConfigError, RecordError):
+            return None  # so that it shows the line
+        names = sorted(path.name for path in self.folder.glob("tables/*") if path.suffix != ".sha256")
+        lines = [f"tables: {', '.join(names)}"] if names else []
+        with contextlib.suppress(ConfigError, RecordError):
+            counts = self.runs["status"].value_counts()
+            lines.insert(0, ", ".join(f"{count:,} {status}" for status, count in counts.items()))
+        return shown.page(str(self.folder), runs, lines)
 
     @functools.cached_property
     def runs_of_study(self) -> tuple[StudyRun, ...]:
