@@ -79,7 +79,7 @@ sensitivity: $(READY)  ## Sobol' indices, main effects and power laws of the pap
 	@echo "Indices, effects and laws are in results/sensitivity/tables, figures and report.html beside them"
 
 .PHONY: emulator
-emulator: $(READY)  ## make the emulator of the package anew: 4,000 runs, then fits (six minutes on 2 cores)
+emulator: $(READY)  ## make the emulator of the package anew: 5,000 runs, then fits (ten minutes on 2 cores)
 	@$(BIN)/subslide study config/emulator.yaml --cores "$$CORES" -- --until points batch
 	@$(BIN)/subslide emulate results/emulator -o src/subslide/emulator/emulator.json
 

@@ -7,6 +7,7 @@ not wait for plotting libraries. A file whose name begins with '_' is a helper a
 import ast
 import functools
 import importlib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -105,12 +106,25 @@ def options_that_read(scene: str) -> frozenset[str]:
     )
 
 
-def layout(name: str) -> Layout:
-    """Return the columns of a table, by importing its module."""
+def layout(name: str, points: Sequence[Any] = ()) -> Layout:
+    """Return the columns of a table, by importing its module.
+
+    Parameters
+    ----------
+    name
+        Name of the table.
+    points
+        Runs of the study that it is of.
+
+    Returns
+    -------
+    Layout
+        Its columns.
+    """
     module = importlib.import_module(f"{PACKAGE.name}.tables.{name}")
-    columns = tuple(module.COLUMNS)
-    others = getattr(module, "WORDS", columns)
-    return Layout(columns, tuple(column for column in columns if column not in others))
+    others = getattr(module, "WORDS", module.COLUMNS)
+    numbers = tuple(column for column in module.COLUMNS if column not in others)
+    return Layout((*module.COLUMNS, *(module.more(points) if hasattr(module, "more") else ())), numbers)
 
 
 def _constants(room: str, name: str) -> dict[str, ast.expr]:

@@ -55,8 +55,7 @@ def point_of(path: str | None, options: dict[str, str]) -> Point:
         if key == "scene_options" and isinstance(text, str):
             values[key] = scene_options.of_text(text, functools.partial(_value_of_text, name=names[key]))
         elif schema.properties()[key].get("type") == "array" and isinstance(text, str):
-            places = [_value_of_text(part, names[key]) for part in text.split(";")]
-            values[key] = [place if isinstance(place, list) else [place] for place in places]
+            values[key] = [_value_of_text(part, names[key]) for part in text.split(";")]
         else:
             values[key] = _value_of_text(text, names[key])
     if isinstance(values.get("snapshot_times"), int | float):
@@ -172,7 +171,8 @@ def batch(
     if ledger is not None:
         outputs.check(ledger, [*inputs, output, checksums.beside(output)], "--ledger", ".json")
     results: list[Run] = []
-    begun = estimated = 0.0
+    timed: list[Point] = []
+    begun = 0.0
     counter = progress.Counter(counted)
     with at_work(Path(os.path.realpath(output)).parent):
         keeper = Keeper(Path(output).parent / staging.UNFINISHED, Path(output).stem, points, keep)
@@ -184,13 +184,14 @@ def batch(
                 counter.add(results[-1].status not in FINISHED)
                 if not before:
                     keeper.add(results[-1])
-                    estimated += cost.seconds(point, keep) if begun else 0.0
+                    if begun:
+                        timed.append(point)
                     begun = begun or time.process_time()  # the first run waits for kernels
             keep_batch(results, output, ledger, keep, first)
             counter.write()
             keeper.forget()
             if threads == 1:
-                pace.learn(pace.kind(points[0], keep), time.process_time() - begun, estimated)
+                pace.learn(pace.kind(points[0], keep), time.process_time() - begun, cost.of_all(timed, keep))
         except BaseException as error:
             if not (ledger and results):
                 raise
@@ -280,6 +281,9 @@ def summary(result: "Run") -> str:
         parts[0] += f" ({result.status_detail})"
     if np.isfinite(result.L_f[0]):
         parts.append(f"L_f = {result.L_f[0]:.4g} m = {result.L_f[0] / radius:.4g} R")
+    farthest, at = (result.measured.get(f"runout_max{end}", [np.nan])[0] for end in ("", "_direction"))
+    if np.isfinite(farthest):
+        parts.append(f"runout up to {farthest:.4g} m, at {at:g} degrees")
     if np.isfinite(result.max_abs_eta).any():
         parts.append(f"peak max|η| = {np.nanmax(result.max_abs_eta):.4g} m")
     if np.isfinite(result.time_at_rest):

@@ -208,6 +208,7 @@ COORDINATES = {
     ),
     "time": Name("t", STEP, "s", "elapsed time since release"),
     "snapshot_time": Name("t", ("run", "snapshot"), "s", "elapsed time of the profile"),
+    "gauge": Name("", ("gauge",), "1", "number of the gauge, from 0, in the order in which it was asked for"),
     "gauge_x": Name("x", ("run", "gauge"), "m", "place of the gauge along x"),
     "gauge_y": Name("y", ("run", "gauge"), "m", "place of the gauge along y"),
     "direction": Name("", ("direction",), "degree", "direction of runout, anticlockwise from the x axis"),

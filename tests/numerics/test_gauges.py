@@ -58,10 +58,11 @@ def test_gauges_off_the_axes_see_the_fields():
 
 def test_a_quarter_mirrors_what_the_plane_holds():
     places = [(sx * 0.06, sy * 0.035) for sx in (1, -1) for sy in (1, -1)]
+    places += [(0.001, -0.002), (-0.05, 0.002), (0.0, 0.06)]  # within half a cell of an axis, or on it
     quarter, plane = run_of("quarter", places), run_of("plane", places)
     for name in naming.GAUGES:
         np.testing.assert_allclose(quarter.measured[name], plane.measured[name], atol=1e-12)
-    u, v = quarter.measured["gauge_u2"][:, -1], quarter.measured["gauge_v2"][:, -1]
+    u, v = (quarter.measured[name][:4, -1] for name in ("gauge_u2", "gauge_v2"))
     assert (u[:2] > 0.01).all()
     assert (v[::2] > 0.01).all()
     np.testing.assert_array_equal(u[2:], -u[:2])
@@ -105,3 +106,16 @@ def test_being_watched_changes_no_bit(kind):
     np.testing.assert_array_equal(watched.time, alone.time)
     for name in (*naming.SERIES, "h2", "eta"):
         np.testing.assert_array_equal(getattr(watched, name), getattr(alone, name))
+
+
+@pytest.mark.parametrize("kind", ["radial", "quarter"])
+def test_gauges_are_the_same_where_no_profiles_are_kept(kind):
+    """There a loop goes on from stop to stop by itself."""
+    point = Point(
+        cells=60, t_end=TIMES[-1], snapshot_times=TIMES, gauges=PLACES, footprints=True, **MODELS[kind]
+    )
+    whole, short = solve(point), solve(point, profiles=False)
+    np.testing.assert_array_equal(short.time, whole.time)
+    assert set(short.measured) == {*naming.GAUGES}
+    for name in naming.GAUGES:
+        np.testing.assert_array_equal(short.measured[name], whole.measured[name])

@@ -58,6 +58,25 @@ def test_cores_end_together(seconds, cores):
     assert len(costs) <= cores + sum(costs) / min(seconds, batches.LEAST) * 1.5
 
 
+def test_a_small_kind_that_comes_last_is_shared_out_too():
+    points = [Point(model="radial", cells=200, r=n / 4000) for n in range(1, 2001)]
+    points += [Point(model="one-layer", cells=200, r=0, delta=20 + n / 500) for n in range(3000)]
+    slow = {pace.kind(points[0], "summary"): 60.0}
+    parts = batches.split(points, batches.Sharing("summary", 30, 2, slow))
+    assert sorted(p.id for batch in parts for p in batch) == sorted(p.id for p in points)
+    assert [batch[0].model for batch in parts[-3:]] == ["radial", "one-layer", "one-layer"]
+    assert len(parts[-1]) == len(parts[-2]) == 1500
+
+
+def test_the_seconds_of_many_runs_are_told_by_some():
+    points = [Point(model="radial", cells=200, a_H=0.5 + n / 200) for n in range(2000)]
+    assert cost.of_all(points, "summary") == pytest.approx(
+        sum(cost.seconds(p, "summary") for p in points), rel=0.02
+    )
+    assert cost.of_all([], "all") == 0
+    assert cost.of_all(points[:3], "all") == pytest.approx(sum(map(cost.seconds, points[:3])))
+
+
 def test_a_costly_point_has_a_batch_to_itself():
     costly = Point(model="quarter", cells=1000)
     points = [*(Point(model="quarter", cells=40, r=n / 1000) for n in range(200)), costly]

@@ -9,7 +9,7 @@ import pytest
 
 from subslide import _sources, catalogue, tables
 from subslide._sources import imported, source_hash
-from subslide.points import RUN_KEYS
+from subslide.points import RUN_KEYS, Point
 from subslide.study.config import make_study
 
 NAMES = catalogue.names("tables")
@@ -30,7 +30,7 @@ def test_a_table_says_what_it_is(name):
     assert about.reads or about.kernels
     assert len(tables.about(name)) > 10
     assert all(len(entry) == 2 and entry[1] for entry in module.COLUMNS.values())
-    assert tables.files(name, 1)[0] == f"{name}.csv"
+    assert tables.files(name, [Point()], "all")[0] == f"{name}.csv"
     assert callable(getattr(module, "table", None) or module.columns)
 
 

@@ -192,7 +192,7 @@ def test_a_record_of_another_version_is_named_in_one_line(project, capsys, monke
     monkeypatch.setattr(
         by_run.netcdf,
         "read",
-        lambda path, names=None: whole(path, None if names is None else set(names) - lacking),
+        lambda path, names, **how: whole(path, set(names) - lacking, **how),
     )
     assert main(["table", "runs", str(project.results)]) == 1
     (line,) = capsys.readouterr().err.splitlines()

@@ -48,6 +48,8 @@ def test_fronts_at_any_time_go_on_and_end_as_the_deposit(trained):
     assert np.allclose(front[:, 0], 1)
     assert (np.diff(front, axis=1) > -1e-3).all()
     assert np.allclose(front[:, -1], predicted["L_f_1pc"].value)
+    bands = predicted["x_front_1pc"].band
+    assert np.allclose(bands[:, -1], predicted["L_f_1pc"].band)  # at rest no cubic errs
 
 
 def test_points_are_the_same_alone_and_in_bulk(trained):

@@ -152,7 +152,6 @@ def test_positions_on_unlike_grids_are_coordinates_by_the_conventions(tmp_path, 
         for name in ("h2", "eta", "cell_width"):
             assert data[name].coordinates == "id a_H a_2 r delta snapshot_time x"
         assert data["x"].coordinates == "id a_H a_2 r delta snapshot_time"
-        assert data["x"].axis == "X"
         assert np.isnan(data["dx"][0])
         assert list(data["grid"][:]) == ["fitted", "uniform", "uniform"]
     with open_record(tmp_path / "b.nc") as data:

@@ -147,7 +147,7 @@ def test_a_summary_takes_less_than_3_kB_a_point(tmp_path):
 
 
 def test_tables_follow_from_each_form(tmp_path, write_tables, solve_study, monkeypatch):
-    monkeypatch.setattr("subslide.tables.series.MOST_RUNS_IN_CSV", 1)
+    monkeypatch.setattr("subslide.tables.series.MOST_CSV", 1)
     tables = {}
     for keep in ("all", "series", "summary"):
         study = config.make_study({"study": "t", "a_H": [1, 3], "r": [0, 0.5], "cells": 60, "keep": keep})

@@ -80,6 +80,7 @@ def test_options_of_run(tmp_path, monkeypatch, capsys):
         main(["run", "--cells", "40", "--t-end", "0.05", "--snapshot-times", "0", *options, "-o", "a.nc"])
         == 0
     )
+    assert "R, runout up to 0." in capsys.readouterr().out
     with xr.open_dataset("a.nc") as data:
         np.testing.assert_array_equal(data["gauge_x"][0], [0.1, 0.05])
         np.testing.assert_array_equal(data["gauge_y"][0], [0.0, -0.05])

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from subslide import solver
+from subslide import solver, tables
 from subslide.results import Results
 from subslide.study import cautions, config
 from subslide.tables import _write, runs, series
@@ -77,10 +77,61 @@ def test_identical_studies_give_identical_tables(finished, write_tables):
 
 
 def test_large_studies_have_parquet(finished, monkeypatch):
-    monkeypatch.setattr(series, "MOST_RUNS_IN_CSV", 1)
+    monkeypatch.setattr(series, "MOST_CSV", 1e4)
     folder = finished(a_H=[1, 2])
     assert not (folder / "tables/series.csv").exists()
     assert len(Results(folder).series) == 23 * len(series.QUANTITIES)
+
+
+def test_series_are_parquet_by_their_size_and_not_by_the_number_of_runs(root):
+    """192 resolved runs had 479 MB of CSV, the paper's 30 have 43."""
+    axes = {"a_H": [1, 2, 3, 4, 5, 6], "r": [0, 0.2, 0.4, 0.6], "delta": [22, 24, 26, 28, 30, 32, 34, 36]}
+    resolved = config.make_study({"study": "t", "numerics": "resolved", **axes})
+    assert len(resolved.points) == 192
+    assert tables.of_study(resolved)["series"] == ["series.parquet"]
+    assert tables.of_study(config.read_study(root / "config/paper.yaml"))["series"] == ["series.csv"]
+    coarse = config.make_study({"study": "t", "cells": 20, "a_H": {"linspace": [1, 10, 1500]}})
+    assert tables.of_study(coarse)["series"] == ["series.csv"]
+    assert series.filename(coarse.points * 100, "summary") == "series.parquet"
+
+
+def test_options_of_scenes_are_columns(tmp_path, solve_study, make_run, write_tables):
+    cases = [
+        {"scene": "ellipse", "scene_options": {"elongation": [1.5, 2], "angle": 30}},
+        {"scene": "pile"},
+        {"scene": "columns", "scene_options": {"x": 0.5}},
+        {},
+    ]
+    study = config.make_study({"study": "t", "cells": 20, "model": "plane", "cases": cases})
+    solve_study(study, tmp_path, lambda points: [make_run(point) for point in points])
+    table = write_tables(tmp_path, "runs").runs
+    scenes = table["scene"].tolist()
+    assert scenes == ["ellipse", "ellipse", "pile", "columns", "cylinder"]
+    np.testing.assert_array_equal(table["elongation"], [1.5, 2, np.nan, np.nan, np.nan])
+    np.testing.assert_array_equal(table["angle"][:2], [30, 30])
+    assert table["shape"].fillna("").tolist() == ["", "", "cone", "", ""]
+    assert table["option_x"].tolist()[3] == 0.5
+    assert list(table.columns)[: len(runs.COLUMNS)] == list(runs.COLUMNS)
+
+
+def test_what_is_constant_is_said_once(finished):
+    folder = finished(a_H=[2, 1], r=[0.1, 0.2])
+    whole, few = (pd.read_csv(folder / f"tables/{name}.csv") for name in ("runs", "runs_varied"))
+    assert (folder / "tables/runs_varied.csv.sha256").is_file()
+    assert list(few.columns[:6]) == ["id", "a_H", "r", "H1", "status", "status_detail"]
+    pd.testing.assert_frame_equal(few, whole[few.columns])
+    left_out = whole.drop(columns=few.columns)
+    assert (left_out.nunique(dropna=False) == 1).all()
+    assert left_out[[c for c in left_out if c not in runs.ASKED]].isna().all(axis=None)
+    assert {"L_f", "L_f_1pc", "eta_gauge_peak"} <= set(few)
+    assert not [name for name in few if name.endswith("_band")]
+
+
+def test_heights_and_the_front_that_is_meant_are_columns(finished):
+    table = Results(finished(a_H=[2, 1], a_2=0.5, radius=0.1)).runs
+    assert table["H2"].tolist() == pytest.approx([0.05, 0.05])
+    assert table["H1"].tolist() == pytest.approx([0.1, 0.05])
+    assert table["L_f"].tolist() == table["L_f_1pc"].tolist()
 
 
 def test_selection_by_value(finished):

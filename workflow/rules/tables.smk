@@ -22,7 +22,8 @@ def in_report(name, path):
     if not caption(name):
         return path
     about = catalogue.table(name)
-    labels = {"figure": about.title if path.suffix != ".html" else f"{about.title}: page"}
+    part = "page" if path.suffix == ".html" else path.stem
+    labels = {"figure": about.title if part == name else f"{about.title}: {part}"}
     return report(path, caption=caption(name), category=about.category, labels=labels)
 
 

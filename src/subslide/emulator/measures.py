@@ -43,7 +43,7 @@ LEARNED: dict[str, tuple[str, tuple[str, ...]]] = {
 QUANTITIES = (*LENGTHS, *FRONTS, *ARRESTS, PEAK, SURFACE)
 """What an emulator predicts."""
 
-MOST = {"surface": 448}
+MOST = {"surface": 512}
 """Columns that a group keeps at most: what max|eta| errs by comes of kinks, which more columns hardly mend."""
 
 POOLED = ("fronts", "arrest")

@@ -38,7 +38,10 @@ def save(answer: Calibration, path: str) -> None:
     place, deviation = (part[0] for part in curve.fronts(best))
     with plt.rc_context(_style.RC):
         size = (_style.WIDTH, 2.6)
-        figure, axes = plt.subplots(1, 1 + len(model.free), figsize=size, layout="constrained")
+        wide = {"width_ratios": [1.4, *(1 for _ in model.free)]}
+        figure, axes = plt.subplots(
+            1, 1 + len(model.free), figsize=size, layout="constrained", gridspec_kw=wide
+        )
         first, *others = axes
         band = OF_95 * deviation[:-1]
         first.fill_between(time[:-1], place[:-1] - band, place[:-1] + band, color="0.8", lw=0)
@@ -53,7 +56,11 @@ def save(answer: Calibration, path: str) -> None:
             ax.plot(*one.profile, "k-", lw=1)
             ax.axhline(RISE, color="0.6", lw=0.8, ls=":")
             ax.axvspan(one.low, one.high, color="0.9", lw=0)
-            ax.set(xlabel=LABELS[key], ylim=(0, 4 * RISE), title=one.verdict)
+            ax.set(xlabel=LABELS[key], ylim=(0, 4 * RISE), title=one.verdict.replace(", ", ",\n"))
+            if key == "a_H":  # its prior is even in the logarithm
+                ax.set_xscale("log")
+                ax.set_xticks([0.5, 1, 2, 5, 10], ["0.5", "1", "2", "5", "10"], minor=False)
+                ax.minorticks_off()
         others[0].set_ylabel(r"rise of $-2\,\ln L$")
         with replacing(Path(path)) as temporary:
             figure.savefig(temporary, format="png", dpi=200, metadata={"Software": None})

@@ -134,7 +134,7 @@ def build_fitted(point: Point, dry_depth: float) -> Fitted:
     real = np.dtype(point.dtype).type
     model, geometry, *_ = choice.of(point)
     mesh, motion, fan = mesh_of(point, geometry == "radius")
-    smallest = float(np.diff(motion.edges).min())
+    smallest = float((motion.edges[1:] - motion.edges[:-1]).min())
     state = scenes.load(point.scene).initial(Grid(geometry, smallest, motion.edges), point)
     alone = model == "one-layer"
     level = real(point.scaled_level)

@@ -142,6 +142,7 @@ def mesh_of(point: Point, radial: bool) -> tuple[Mesh, Motion, Fan]:
     base, near, ahead = coefficients = layout.coefficients(point.cells, far)
     edges = layout.first_edges(point, fan, coefficients)
     left, right = layout.ends(fan, point.latest_end / point.time_scale)
+    at_end = base + near * left + ahead * right
     cells, padded = point.cells, point.cells + 2 * GHOSTS
     turn = 2 * np.pi if radial else 2.0
     power = 2 if radial else 1
@@ -160,7 +161,7 @@ def mesh_of(point: Point, radial: bool) -> tuple[Mesh, Motion, Fan]:
         growth=np.zeros(cells, real),
         lever=np.zeros(cells, real),
         turn=turn,
-        widest=real(np.diff(base + near * left + ahead * right).max()),
+        widest=real((at_end[1:] - at_end[:-1]).max()),
         radial=float(radial),
     )
     total = np.zeros(padded + 1)

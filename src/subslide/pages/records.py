@@ -38,8 +38,9 @@ What a run is asked for by keys of its own is there where a run of the file has 
 is linear between centres of cells, in the plane between four: along x it sees what the profiles show, elsewhere what
 fields do. On a radius it stands at its distance from the axis, and velocities are parts of the radial one; a quarter is
 mirrored. Between snapshots friction of grains is half a step ahead of the sample (it is even at each snapshot). Runout
-is taken along rays from the axis, with a point between cells as the front has it, so that along x it is `L_f`; the
-points (`runout` cos `direction`, `runout` sin `direction`) are the outline of a deposit that each ray leaves once:
+is taken along rays from the axis, with a point between cells as the front has it, so that along x it is `L_f` (unless
+no grain ever moved: then `L_f` is the scene's own edge). Its points are the outline of a deposit that each ray leaves
+once, and `deposit_area` is that of any deposit:
 
 ```python
 angle = np.deg2rad(record["direction"])
@@ -47,7 +48,8 @@ outline = record["runout"][0] * np.cos(angle), record["runout"][0] * np.sin(angl
 ```
 
 Footprints are of the run's steps, the start among them: in a cell whose `arrival_h2` is missing h2 never was 1 % of H2.
-`keep: series` keeps gauges and runout, `summary` runout alone.
+`keep: series` keeps gauges and runout, `summary` runout alone. Where a run is so long that its series are thinned,
+gauges have the same samples.
 
 The attribute `keep` says what a record holds beside the numbers of each run, which follow from all of its samples in
 any case. `all`: series and profiles. `series`: no profiles. `summary`: of {summary} the samples between which

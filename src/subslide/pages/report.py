@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import subslide
-from subslide import catalogue, points
+from subslide import catalogue, points, tables
 from subslide.naming import FINISHED, STATUSES
 from subslide.study.yaml_files import read_text
 
@@ -150,6 +150,8 @@ def _tables(results: "Results", captions: Path) -> Iterable[str]:
         ]
         if not files:
             continue
+        beside = (results.folder / "tables" / file for file in getattr(tables.load(name), "BESIDE", ()))
+        files += [path for path in beside if path.is_file()]
         links = " ".join(f'<a href="tables/{path.name}">{path.name}</a>' for path in files)
         yield (
             f"<details><summary>{_safe(catalogue.table(name).title)}</summary><p>{_caption(captions, name)}"

@@ -56,6 +56,11 @@ def column(name: str) -> str:
     return f"option_{name}" if name in TAKEN else name
 
 
+def scenes_of(points: Sequence[Point]) -> tuple[str, ...]:
+    """Return the names of the scenes of some points, sorted."""
+    return tuple(sorted({point.scene for point in points}))
+
+
 def of(points: Sequence[Point]) -> dict[str, Option]:
     """Return the options of the scenes of some points, by the name of their column.
 
@@ -69,7 +74,7 @@ def of(points: Sequence[Point]) -> dict[str, Option]:
     dict
         In the order of the scenes, and of the options of each; none of scenes without options.
     """
-    present = tuple(sorted({point.scene for point in points}))
+    present = scenes_of(points)
     stated = [
         {column(name): value for name, value in scenes.options(point).items()}
         for point in (points if described(present) else ())

@@ -6,7 +6,6 @@ They are made of all samples of the run, before any are left out.
 import math
 from typing import TYPE_CHECKING
 
-from subslide import naming
 from subslide.keys import names
 from subslide.naming import Name
 from subslide.points import PAPER_BOX
@@ -83,7 +82,7 @@ def _values(run: "Run") -> tuple[float, ...]:
     """Return the numbers of a run, made of its samples."""
     from subslide.records import reductions
 
-    time, series = run.time, {name: getattr(run, name) for name in naming.SERIES}
+    time, series = run.time, run.all_series()
     inside = samples_inside(run)
     return (
         *reductions.peak(series["max_abs_eta"], time),

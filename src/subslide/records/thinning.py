@@ -3,7 +3,6 @@
 A run crawls where waves blow up, and is long where r is near 1 on fine grids.
 """
 
-import copy
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -56,7 +55,7 @@ def kept(run: "Run", keep: str) -> "Run":
     if keep == "all":
         return thinned(run)
     scalars.of(run)
-    short = copy.copy(run)
+    short = run.copied()
     snapshots, none = len(run.snapshot_time), np.empty(0)
     short.x, short.h2, short.eta = none, np.empty((snapshots, 0)), np.empty((snapshots, 0))
     short.width = short.h2_diagonal = short.h2_field = short.eta_field = None
@@ -69,7 +68,8 @@ def _summary(run: "Run") -> "Run":
     """Return a run with the series SUMMARY alone, thinned; it is changed."""
     from subslide.records import course
 
-    series = np.vstack([getattr(run, name) for name in SUMMARY])
+    whole = run.all_series()
+    series = np.vstack([whole[name] for name in SUMMARY])
     marks = np.zeros(series.shape, bool)
     # samples at the times of snapshots, which are off by round-off
     places = np.searchsorted(run.time, run.snapshot_time * (1 - 1e-12))
@@ -78,7 +78,7 @@ def _summary(run: "Run") -> "Run":
     stays = marks.any(axis=0)
     if stays.sum() > LONGEST:
         return _summary(thinned(run))
-    fronts, short = len(run.x_front), series[:, stays].astype(np.float32)
+    fronts, short = len(whole[SUMMARY[0]]), series[:, stays].astype(np.float32)
     named = dict(zip(SUMMARY, (short[:fronts], *short[fronts:]), strict=True))
     _replace(run, run.time[stays].astype(np.float32), named)
     return run
@@ -121,7 +121,7 @@ def thinned(run: "Run") -> "Run":
         return run
     series = np.vstack([np.atleast_2d(getattr(run, name)) for name in naming.SERIES])
     stays = places(np.nan_to_num(series, posinf=np.inf, neginf=-np.inf))
-    short = copy.copy(run)
+    short = run.copied()
     _replace(short, run.time[stays], {name: getattr(run, name)[..., stays] for name in naming.SERIES})
     at_gauges = {name: run.measured[name][:, stays] for name in naming.GAUGES if name in run.measured}
     short.measured = run.measured | at_gauges

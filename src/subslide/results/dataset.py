@@ -77,7 +77,7 @@ def open_study(folder: Path | str, by: str = "run", scaled_time: int | None = No
         )
     study = Tables(folder)
     runs = study.runs_of_study
-    named = options.described(tuple(sorted({run.point.scene for run in runs})))
+    named = options.described(options.scenes_of([run.point for run in runs]))
     parts = _parts(Path(folder), runs)
     if not are_on_one_grid(parts):
         parts = [alike(part) for part in parts]

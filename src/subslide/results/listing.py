@@ -43,13 +43,14 @@ class Companion(NamedTuple):
 
 
 class Listing(NamedTuple):
-    """The runs of a study, in the order of the tables, their companions, whether it has bands, what was asked, designs."""
+    """The runs of a study in the order of the tables, companions, whether it has bands, what was asked, designs, keep."""
 
     runs: tuple[StudyRun, ...]
     companions: tuple[Companion, ...]
     has_bands: bool
     asked: dict[str, Any]
     designs: tuple[dict[str, Any], ...] = ()
+    keep: str = "all"
 
 
 def listed(folder: Path) -> Listing:
@@ -89,7 +90,7 @@ def listed(folder: Path) -> Listing:
         asked = dict(index.get("asked", {}))
         if not runs:
             raise ValueError("there are no points")
-        designs = tuple(index.get("designs", ()))
+        designs, keep = tuple(index.get("designs", ())), str(index.get("keep", "all"))
         _check_designs(designs, {run.id for run in runs})
         _once([run.id for run in runs])
         _once([f"{one.role} of {one.of}" for one in others])
@@ -98,7 +99,7 @@ def listed(folder: Path) -> Listing:
         raise RecordError(f"{path} is damaged or not of this version ({what}); {AGAIN}") from None
     if fault and checksums.beside(path).exists():
         raise RecordError(f"{fault}; {AGAIN}")
-    return Listing(runs, others, "companions" in index, asked, designs)
+    return Listing(runs, others, "companions" in index, asked, designs, keep)
 
 
 def verify(path: Path) -> None:

@@ -71,6 +71,11 @@ class Tables:
         return self._listed.asked
 
     @property
+    def keep(self) -> str:
+        """Return what the study keeps of each run, one of `subslide.keys.kept.WORDS`."""
+        return self._listed.keep
+
+    @property
     def designs(self) -> tuple[dict[str, Any], ...]:
         """Return what points.json says of each Saltelli design: see `study.config.Study.designs`."""
         return self._listed.designs

@@ -106,7 +106,7 @@ def _check(rows: "pd.DataFrame", name: str, runs: Sequence[StudyRun], even: bool
     """Raise a ValueError unless rows are those of a table of the study, as far as its module and the runs tell."""
     from pandas.api.types import is_numeric_dtype
 
-    layout = catalogue.layout(name)
+    layout = catalogue.layout(name, tuple(run.point for run in runs))
     if list(rows.columns) != list(layout.columns):
         odd = [str(column) for column in rows.columns if column not in layout.columns]
         lacking = [column for column in layout.columns if column not in rows.columns]

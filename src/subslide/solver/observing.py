@@ -27,11 +27,7 @@ class Watchers:
         """Make those that the point asks for."""
         self.gauges = Gauges(point) if point.gauges else None
         self.footprints = Footprints(model) if point.footprints and profiles else None
-
-    @property
-    def present(self) -> tuple[Gauges | Footprints, ...]:
-        """Those that the point asks for."""
-        return tuple(one for one in (self.gauges, self.footprints) if one is not None)
+        self.present = tuple(one for one in (self.gauges, self.footprints) if one is not None)
 
     def observe(self, model: Model, sample: int, now: float) -> None:
         """Give all of them the state of a model.

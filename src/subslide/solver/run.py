@@ -87,6 +87,17 @@ class Run:
         """Directions (degree) of `runout`, at equal angles from the x axis on: the same number for the same one."""
         return 360.0 * np.arange(self.point.runout_directions) / max(1, self.point.runout_directions)
 
+    def all_series(self) -> dict[str, np.ndarray]:
+        """Return the series by name, as attributes give them, in the time of one."""
+        values = vars(self)
+        return self.series | {name: values[name] for name in self.series if name in values}
+
+    def copied(self) -> "Run":
+        """Return a run with the same values, in less time than `copy` takes."""
+        other: Run = object.__new__(Run)
+        vars(other).update(vars(self))
+        return other
+
     def __getattr__(self, name: str) -> np.ndarray:
         """Return the series of that name."""
         series = self.__dict__.get("series", {})

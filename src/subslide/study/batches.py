@@ -181,7 +181,17 @@ def split(points: Sequence[Point], sharing: Sharing = ALONE) -> list[list[Point]
     for name, group in groups.items():
         for places in _bins(group, costs[name], target, sharing):
             batches.append((sum(costs[name][n] for n in places), [group[n] for n in places]))
-    return [batch for _, batch in sorted(batches, key=lambda batch: -batch[0])]
+    batches.sort(key=lambda batch: -batch[0])
+    ends = [0.0] * sharing.cores
+    for seconds, _ in batches:
+        end = ends[0] + seconds
+        heapq.heapreplace(ends, end)
+    if (
+        end == max(ends) and seconds > 2 * LEAST
+    ):  # cores would wait for the last batch: each takes a part of it
+        _, last = batches.pop()
+        batches += [(0.0, part) for n in range(sharing.cores) if (part := last[n :: sharing.cores])]
+    return [batch for _, batch in batches]
 
 
 def of_one_record(points: Sequence[Point], keep: str) -> tuple[Point, ...]:

@@ -7,6 +7,7 @@ collapses is longer than any estimate. Imports no kernels.
 """
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from subslide import scenes
@@ -30,7 +31,10 @@ SECONDS_PER_CELL = {
 GENERAL = 2.3
 """Times as many with the general ones."""
 WATCHED, WATCHED_CELL = 1.2e-4, 3e-8
-"""Seconds more of a step of a run with gauges or footprints, which stops after each, and of each cell of the plane."""
+"""Seconds more of a step of a run with gauges or footprints, which stops after each; and of a cell of the plane."""
+
+ENOUGH = 200
+"""Runs by which the seconds of more are told."""
 
 REST = 1.8
 """Time to rest over 1/m in R / sqrt(g H2 (1-r))."""
@@ -133,6 +137,24 @@ def of(point: Point) -> Cost:
         known = Cost(_seconds(point, size), _memory(point, size), series, profiles)
         vars(point)[COST] = known
     return known
+
+
+def of_all(points: Sequence[Point], keep: str) -> float:
+    """Return the estimated seconds of many runs, from some of them.
+
+    Parameters
+    ----------
+    points
+        The runs.
+    keep
+        What a record keeps of each.
+
+    Returns
+    -------
+    float
+    """
+    some = points[:: 1 + len(points) // ENOUGH]
+    return sum(seconds(point, keep) for point in some) * len(points) / max(1, len(some))
 
 
 def seconds(point: Point, keep: str = "all") -> float:

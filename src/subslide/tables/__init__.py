@@ -36,8 +36,12 @@ text(results) -> str
     Return the table in words, from its file, for the command line to print.
 html(rows) -> str
     Return a page of the table, which is written beside it.
-filename(runs) -> str
-    Return the name of its file in a study of so many runs, if that is not always NAME.csv.
+filename(points, keep) -> str
+    Return the name of its file in a study of such runs, of which so much is kept, if that is not always NAME.csv.
+more(points) -> dict of str to tuple
+    Return the columns after COLUMNS, with unit and meaning, of a study of such runs.
+BESIDE : dict of str to function
+    Files beside it, by name; a function picks their columns from the entries by column that ``columns`` returns.
 write(path, results) -> None
     Write the file, in place of ``table``, where rows are too many to be held.
 
@@ -47,6 +51,7 @@ that begin with '_' are helpers. A module imports no other table but those that 
 """
 
 import importlib
+from collections.abc import Sequence
 from types import ModuleType
 from typing import TYPE_CHECKING
 
@@ -55,6 +60,7 @@ from subslide.keys import words
 from subslide.keys.schema import ConfigError
 
 if TYPE_CHECKING:
+    from subslide.points import Point
     from subslide.study.config import Study
 
 
@@ -68,15 +74,17 @@ def load(name: str) -> ModuleType:
     return importlib.import_module(f"{__name__}.{name}")
 
 
-def files(name: str, runs: int) -> list[str]:
-    """Return the names of a table's files: the table, and its page if it has one.
+def files(name: str, points: Sequence["Point"], keep: str) -> list[str]:
+    """Return the names of a table's files: the table, and what it has beside it.
 
     Parameters
     ----------
     name
         Name of the table.
-    runs
-        How many runs the study has.
+    points
+        Runs of the study.
+    keep
+        What is kept of each, one of `subslide.keys.kept.WORDS`.
 
     Returns
     -------
@@ -84,8 +92,27 @@ def files(name: str, runs: int) -> list[str]:
         Names in the study's folder of tables.
     """
     module = load(name)
-    filename = module.filename(runs) if hasattr(module, "filename") else f"{name}.csv"
-    return [filename, *([f"{name}.html"] if hasattr(module, "html") else [])]
+    filename = module.filename(points, keep) if hasattr(module, "filename") else f"{name}.csv"
+    return [filename, *getattr(module, "BESIDE", ()), *([f"{name}.html"] if hasattr(module, "html") else [])]
+
+
+def columns(name: str, points: Sequence["Point"]) -> dict[str, tuple[str, str]]:
+    """Return the columns of a table, with unit and meaning.
+
+    Parameters
+    ----------
+    name
+        Name of the table.
+    points
+        Runs of the study.
+
+    Returns
+    -------
+    dict
+        Unit and meaning by column, in order.
+    """
+    module = load(name)
+    return {**module.COLUMNS, **(module.more(points) if hasattr(module, "more") else {})}
 
 
 def of_study(study: "Study") -> dict[str, list[str]]:
@@ -102,7 +129,8 @@ def of_study(study: "Study") -> dict[str, list[str]]:
         Names of files by name of table.
     """
     names = (name for name in catalogue.names("tables") if not load(name).needs(study))
-    return {name: files(name, len(study.runs)) for name in names}
+    points = [point for _, point in study.runs]
+    return {name: files(name, points, study.keep) for name in names}
 
 
 def about(name: str) -> str:

@@ -72,7 +72,8 @@ def write(name: str, results: "Results") -> list[Path]:
     """
     module = tables.load(name)
     folder = results.folder / "tables"
-    paths = [folder / file for file in tables.files(name, len(results.runs_of_study))]
+    points = [run.point for run in results.runs_of_study]
+    paths = [folder / file for file in tables.files(name, points, results.keep)]
     outputs.check_made([*paths, *map(checksums.beside, paths)], results.folder)
     if hasattr(module, "write"):
         folder.mkdir(exist_ok=True)
@@ -80,9 +81,15 @@ def write(name: str, results: "Results") -> list[Path]:
             module.write(temporary, results)
     elif hasattr(module, "columns"):
         columns = module.columns(results)
+        chosen = {paths[0].name: list(tables.columns(name, points))}
+        chosen |= {file: pick(columns) for file, pick in getattr(module, "BESIDE", {}).items()}
         folder.mkdir(exist_ok=True)
-        with replacing(paths[0]) as temporary, open(temporary, "w", encoding="utf-8", newline="") as file:
-            file.writelines(csv_parts({key: columns[key] for key in module.COLUMNS}))
+        for file_name, keys in chosen.items():
+            with (
+                replacing(folder / file_name) as temporary,
+                open(temporary, "w", encoding="utf-8", newline="") as file,
+            ):
+                file.writelines(csv_parts({key: columns[key] for key in keys}))
     else:
         rows = module.table(results)
         rows = rows.to_dict("records") if hasattr(rows, "to_dict") else list(rows)

@@ -13,8 +13,8 @@ from subslide import naming
 from subslide.keys import schema, words
 from subslide.keys.values import RUN_KEYS, STANDS_FOR
 from subslide.naming import FRONT_LABELS
-from subslide.points import options_text
-from subslide.records import scalars
+from subslide.points import Point, options_text
+from subslide.records import options, scalars
 from subslide.study.config import Study
 from subslide.tables import bands
 
@@ -23,7 +23,14 @@ if TYPE_CHECKING:
 
 TITLE = "Table of runs"
 READS = ("records", "bands")
-ABOUT = "One row a run; nothing here differs between two identical runs."
+VARIED = "runs_varied.csv"
+"""File of what varies and what came of it."""
+
+ABOUT = f"""One row a run; nothing here differs between two identical runs. After these columns stands one for each
+option of the study's scenes, such as `elongation`; empty where the run's scene has none of that name.
+
+`{VARIED}` has of these columns the `id`, those of what was asked that are not the same for all runs, and those of what
+came of it that are not all empty. What all runs share is said by any row of `runs.csv`, and by `points.json`."""
 
 
 Runs = Sequence["StudyRun"]
@@ -95,6 +102,8 @@ REST = (
     " cells shrink; the times of arrest do"
 )
 MOVED = "whether any grain moved, `yes` or `no`; empty if the run failed"
+DEPTH = "depth of water above the column at the start, a_H H2"
+HEIGHT = "height of the column at the start, a_2 R"
 SCALED = "tan(delta)/a_2: with a_H and r, all that the scaled answer depends on"
 WHOLE = "nonhyperbolic_cells_max"
 """Whole number, which records have as a float like the others."""
@@ -114,6 +123,8 @@ COLUMNS_OF_RUN = {
         lambda runs, values: [run.numerics for run in runs],
     ),
     **{key: _asked(key) for key in RUN_KEYS if key not in UNTOLD},
+    "H1": Column("m", DEPTH, lambda runs, values: [run.point.a_H * run.point.column_height for run in runs]),
+    "H2": Column("m", HEIGHT, lambda runs, values: [run.point.column_height for run in runs]),
     "m": Column("", SCALED, lambda runs, values: [run.point.friction_number for run in runs]),
     "resolved_model": _recorded("model", "", "geometry that was solved; `model` is what was asked for"),
     "resolved_grid": _recorded("grid", "", "grid that was solved on, `uniform` or `fitted`"),
@@ -127,6 +138,7 @@ COLUMNS_OF_RUN = {
         "box_half_width", "m", "half-width of the box at the end, and of the paper's on an open sea"
     ),
     "wave_free_until": _recorded("wave_free_until", "s", naming.SCALARS["wave_free_until"].long_name),
+    "L_f": _length(next(iter(FRONT_LABELS)), 0),
     **{f"L_f_{label}": _length(label, n) for label, n in FRONT_LABELS.items()},
     **{f"L_f_{label}_over_R": _length_over_radius(label, n) for label, n in FRONT_LABELS.items()},
     **{f"time_of_arrest_{label}": _arrest(label, n) for label, n in FRONT_LABELS.items()},
@@ -155,6 +167,9 @@ MEASURED = (
 )
 """Variables of records that the table follows from."""
 
+ASKED = ("numerics", *RUN_KEYS, "H1", "H2", "m", "resolved_model", "resolved_grid", "dx")
+"""Columns that follow from what was asked."""
+
 
 def needs(study: Study) -> str:
     """Return '' for every study."""
@@ -171,7 +186,43 @@ def columns(results: "Results") -> dict[str, Sequence[Any] | np.ndarray]:
             entries[name] = (
                 [of_bands.get(run.id, {}).get(name) for run in runs] if of_bands else [None] * len(runs)
             )
-    return entries
+    return entries | {name: option.values for name, option in options.of([run.point for run in runs]).items()}
+
+
+def more(points: Sequence[Point]) -> dict[str, tuple[str, str]]:
+    """Return the columns of the options of a study's scenes, with their meaning; their units are in it."""
+    return {name: ("", about) for name, (about, _) in options.described(options.scenes_of(points)).items()}
+
+
+def varied(entries: Mapping[str, Sequence[Any] | np.ndarray]) -> list[str]:
+    """Return the columns of VARIED: what varies, and what came of it.
+
+    Parameters
+    ----------
+    entries
+        Entries by column.
+
+    Returns
+    -------
+    list of str
+        Names of columns.
+    """
+    asked = {*ASKED, *entries.keys() - COLUMNS.keys()}
+    return [name for name, of in entries.items() if not (_is_one(of) if name in asked else _is_empty(of))]
+
+
+def _is_one(entries: Sequence[Any] | np.ndarray) -> bool:
+    """Return whether all entries of a column are the same, missing ones too."""
+    first = entries[0]
+    return all(entry == first or (entry != entry and first != first) for entry in entries)
+
+
+def _is_empty(entries: Sequence[Any] | np.ndarray) -> bool:
+    """Return whether no entry of a column says anything."""
+    return all(entry is None or entry != entry or entry == "" for entry in entries)
+
+
+BESIDE = {VARIED: varied}
 
 
 def moved(status: np.ndarray, rested: np.ndarray) -> list[str]:

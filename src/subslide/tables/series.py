@@ -9,9 +9,11 @@ import numpy as np
 from subslide import naming
 from subslide.naming import FRONT_LABELS
 from subslide.records import thinning
+from subslide.study import cost
 from subslide.study.config import Study
 
 if TYPE_CHECKING:
+    from subslide.points import Point
     from subslide.records.variables import Variable
     from subslide.results import Results, StudyRun
 
@@ -37,7 +39,12 @@ QUANTITIES = {
 FRONTS = {f"x_front_{label}": n for label, n in FRONT_LABELS.items()}
 """Place of each threshold by the name of its quantity."""
 
-MOST_RUNS_IN_CSV = 1000
+MOST_CSV = 100e6
+"""Estimated bytes from which on the table is Parquet."""
+
+CSV_BYTES = 6.2
+"""Bytes of CSV for each that the series are estimated at: what the paper's study has."""
+
 RUNS_IN_A_GROUP = 1000
 """Runs whose rows are one group of a Parquet file."""
 
@@ -48,9 +55,9 @@ def about() -> str:
         f"- `{name}`{f' ({unit})' if unit else ''}: {meaning}" for name, (unit, meaning) in QUANTITIES.items()
     )
     return f"""One row a sample, and a sample each time step (of runs of more than {thinning.LONGEST} steps those that
-keep every extreme; see docs/records.md). A quantity that a run lacks has no rows. Above {MOST_RUNS_IN_CSV} runs it is
-`series.parquet` instead, and of runs of which a summary is kept each quantity has samples of its own, between which
-straight lines give the others.
+keep every extreme; see docs/records.md). A quantity that a run lacks has no rows. Where CSV would take more than some
+{MOST_CSV / 1e6:g} MB, such as of 40 resolved runs, it is `series.parquet` instead. Of runs of which a summary is kept
+that has for each quantity samples of its own, between which straight lines give the others.
 
 Quantities:
 
@@ -62,9 +69,14 @@ def needs(study: Study) -> str:
     return ""
 
 
-def filename(runs: int) -> str:
-    """Return the name of the file in a study of so many runs."""
-    return "series.csv" if runs <= MOST_RUNS_IN_CSV else "series.parquet"
+def filename(points: Sequence["Point"], keep: str) -> str:
+    """Return the name of the file in a study of such runs: by the size that it would have as CSV."""
+    form, size = "summary" if keep == "summary" else "series", 0.0
+    for point in points:
+        size += CSV_BYTES * cost.of(point).kept(form)
+        if size > MOST_CSV:
+            return "series.parquet"
+    return "series.csv"
 
 
 def table(results: "Results") -> Iterator[dict]:
@@ -85,9 +97,9 @@ def samples(results: "Results") -> Iterator[tuple[str, np.ndarray, dict[str, np.
 
 
 def write(path: Path, results: "Results") -> None:
-    """Write the table run by run: in a study of many runs as Parquet, else as CSV with ten digits."""
-    many = filename(len(results.runs_of_study)) != "series.csv"
-    (_write_parquet if many else _write_csv)(path, results)
+    """Write the table run by run: if it is large as Parquet, else as CSV with ten digits."""
+    name = filename([run.point for run in results.runs_of_study], results.keep)
+    (_write_csv if name == "series.csv" else _write_parquet)(path, results)
 
 
 def _write_csv(path: Path, results: "Results") -> None:
