@@ -39,6 +39,9 @@ def solve(solve_study, make_run):
             vars(run).update(status="diverged", status_detail="at once", L_f=np.full(3, np.nan))
         if point.grid == "fitted":
             fitted(run, seed=int(point.a_H))
+        if point.gauges:
+            depth = np.outer(1 + np.arange(len(point.gauges)), run.time)
+            run.measured = {"gauge_h2": depth, "largest_h2": run.h2.max(axis=0)}
         return thinning.kept(run, keep)
 
     def solve(folder, base, **values):
@@ -65,7 +68,7 @@ def mixed(solve, tmp_path_factory):
     folder = tmp_path_factory.mktemp("mixed")
     uniform = {"a_H": [1, 2], "r": 0.2}
     others = [
-        {"a_H": [1, 3], "cells": 60},
+        {"a_H": [1, 3], "cells": 60, "gauges": [[0.1, 0], [0.05, 0]]},
         {"a_H": [1, 2], "grid": "fitted", "quantities": "grains", "cells": 24, "r": 0.1},
         {"scene": "ellipse", "scene_options": {"elongation": [1.5, 2]}, "model": "plane", "fields": True},
     ]
@@ -192,6 +195,16 @@ def test_keys_that_follow_from_others_are_no_axes_and_rest_is_at_infinity(solve,
     assert data["cells"].dims == ("numerics",)
 
 
+def test_runs_with_and_without_gauges_on_one_grid_open_whole(solve, here):
+    folder = solve(here, MINE, cases=[{"a_H": 1}, {"a_H": 2, "cells": 40, "gauges": [[0.1, 0]]}])
+    solve(here, MINE, cases=[{"a_H": [1, 3]}, {"a_H": 2, "gauges": [[0.1, 0]]}])
+    data = subslide.open_study(folder)
+    assert "x" in data.dims
+    assert data["gauge_x"].dims == ("run", "gauge")
+    assert {"gauge_x", "gauge_y"} <= set(data.coords)
+    data.to_netcdf("out.nc")
+
+
 def test_runs_that_are_no_full_grid_are_refused(solve, here):
     folder = solve(here, MINE, cases=[{"a_H": [1, 2], "r": [0.1, 0.2]}, {"a_H": 3, "r": 0.2}])
     assert subslide.open_study(folder).sizes["run"] == 5
@@ -206,7 +219,12 @@ def test_a_study_of_unlike_grids_opens_whole(mixed, here):
     assert "elongation" in data.coords
     assert not set(naming.FIELDS_2D) & set(data)
     data.to_netcdf("out.nc")
+    gauged = data["a_H"].where(data["cells"] == 60, drop=True)["run"]
+    np.testing.assert_array_equal(data["gauge_x"].sel(run=gauged), [[0.1, 0.05]] * 2)
+    assert data["gauge_h2"].isnull().all(["gauge", "step"]).sum() == data.sizes["run"] - 2
+    assert data["largest_h2"].dims == ("run", "cell")
     laid = subslide.open_study(mixed, scaled_time=30)
+    assert laid["gauge_h2"].dims == ("run", "gauge", "scaled_time")
     assert laid["max_abs_eta"].sel(run=laid["grid"] == "fitted").isnull().all()
     assert laid["x_front"].notnull().all()
 

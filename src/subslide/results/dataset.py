@@ -82,7 +82,10 @@ def open_study(folder: Path | str, by: str = "run", scaled_time: int | None = No
     if not are_on_one_grid(parts):
         parts = [alike(part) for part in parts]
     parts = [_with_options(part, named) for part in parts]
-    data = xr.concat(parts, "run", **JOINED).sortby("run").drop_encoding()
+    some = {str(name) for part in parts for name in part.coords if not all(name in other.coords for other in parts)}
+    some -= {str(name) for part in parts for name in part.dims}
+    parts = [part.reset_coords([name for name in some if name in part.coords]) for part in parts]
+    data = xr.concat(parts, "run", **JOINED).set_coords(list(some)).sortby("run").drop_encoding()
     data.attrs = {name: data.attrs[name] for name in ATTRS} | {"study": Path(folder).resolve().name}
     labels = {run.id: run.numerics for run in runs}
     about = {"long_name": "named set of numerics that the study asked for"}
@@ -127,7 +130,8 @@ def _part(path: Path, ids: list[str]) -> "xr.Dataset":
             values = variable.load()
             parts[name] = values.astype(str) if values.dtype.kind == "O" else values
         elif "run" in variable.dims:
-            parts[name] = variable.chunk(dict.fromkeys(("run", "snapshot"), 1) if "y" in variable.dims else {})
+            whole = {"y", "x"} if "y" in variable.dims else set(variable.dims)
+            parts[name] = variable.chunk({dim: -1 if dim in whole else 1 for dim in variable.dims})
     record = record.assign(parts)
     return scaled.filled(record) if record.attrs.get("keep") == "summary" else record
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from subslide import naming
 from subslide.files import RecordError
 from subslide.keys.schema import ConfigError
 from subslide.records import options, thinning
@@ -67,7 +66,7 @@ def are_on_one_grid(records: Sequence["xr.Dataset"]) -> bool:
 
 
 def alike(record: "xr.Dataset") -> "xr.Dataset":
-    """Return a record with profiles along `cell`, so that it can be joined with records of any grid, scene and `keep`.
+    """Return a record that can be joined with records of any grid, scene, `keep` or measure: profiles along `cell`.
 
     It is what `xarray.open_mfdataset` takes as `preprocess` for a study of unlike records.
 
@@ -80,20 +79,19 @@ def alike(record: "xr.Dataset") -> "xr.Dataset":
     -------
     xarray.Dataset
         The same with positions `x` (run, snapshot, cell) and widths `cell_width` (run, snapshot, cell) of cells, if it
-        has profiles, and without fields of the plane. These, and options of scenes, are no coordinates, since other
-        records may lack them.
+        has profiles, and without fields of the plane. These, places of gauges and options of scenes are no coordinates,
+        since other records may lack them.
     """
     import xarray as xr
 
     named = options.described(tuple(sorted({str(scene) for scene in record["scene"].values})))
-    record = record.reset_coords([name for name in named if name in record.coords]).set_coords("snapshot_time")
-    if "cell" in record.dims:
-        return record.reset_coords("x")
+    some = (*named, "gauge_x", "gauge_y", *(["x"] if "cell" in record.dims else ()))
+    record = record.reset_coords([name for name in some if name in record.coords]).set_coords("snapshot_time")
     if "x" not in record.dims:
         return record
     sizes = {"run": record.sizes["run"], "snapshot": record.sizes["snapshot"], "cell": record.sizes["x"]}
     x, dx = record["x"].variable, record["dx"].variable.compute()
-    fields = [name for name in (*naming.FIELDS_2D, "y") if name in record.variables]
+    fields = [name for name, variable in record.variables.items() if "y" in variable.dims]
     record = record.drop_vars(["x", *fields]).rename_dims(x="cell")
     places = {
         "x": xr.Variable("cell", x.values, x.attrs).set_dims(sizes),

@@ -64,7 +64,7 @@ def on_common_time(data: "xr.Dataset", count: int) -> "xr.Dataset":
                 row[:] = interpolated(common, time[run] / scale[run], of_run, bool(holds[run]))
         return laid
 
-    names = [name for name in naming.SERIES if name in data]
+    names = [name for name in (*naming.SERIES, *naming.GAUGES) if name in data]
     data = _of_series(data, lay, names, DIM, count, "time_scale", "held").drop_vars(["time", "step", "held"])
     return data.assign_coords({DIM: (DIM, common, about)})
 
