@@ -3,7 +3,6 @@
 Only numpy, numba and netCDF4 are imported here, and late: start-up is most of a radial run's time.
 """
 
-import functools
 import itertools
 import os
 import signal
@@ -11,15 +10,15 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from subslide import checksums, scenes, source_hash
 from subslide.files import Stopped, write_text
-from subslide.keys import plain, schema, words
+from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
 from subslide.naming import FINISHED
 from subslide.points import Point
-from subslide.study import config, cost, outputs, pace, progress, scene_options, staging
+from subslide.study import config, cost, option_texts, outputs, pace, progress, staging
 from subslide.study.batches import read_batch, spec_text
 from subslide.study.yaml_files import read_yaml
 
@@ -52,12 +51,7 @@ def point_of(path: str | None, options: dict[str, str]) -> Point:
     names = {key: f"{path}: {key}" for key in values}
     for key, text in options.items():
         names[key] = "--" + key.replace("_", "-")
-        if key == "scene_options" and isinstance(text, str):
-            values[key] = scene_options.of_text(text, functools.partial(_value_of_text, name=names[key]))
-        elif schema.properties()[key].get("type") == "array" and isinstance(text, str):
-            values[key] = [_value_of_text(part, names[key]) for part in text.split(";")]
-        else:
-            values[key] = _value_of_text(text, names[key])
+        values[key] = option_texts.value_of(key, text, names[key])
     if isinstance(values.get("snapshot_times"), int | float):
         values["snapshot_times"] = [values["snapshot_times"]]
     point = config.make_point(values, names)
@@ -293,20 +287,3 @@ def summary(result: "Run") -> str:
         parts.append(f"{result.grid} grid ({result.grid_reason})")
     parts.append(f"{result.steps} steps in {result.wall_seconds:.3g} s")
     return ", ".join(parts)
-
-
-def _value_of_text(text: Any, name: str) -> Any:
-    """Return what the text of an option stands for: as in a file, or a list of such values parted by commas."""
-    if not isinstance(text, str):
-        return text
-    if plain.control(text):
-        raise ConfigError(f"{name}: {words.show(text)} has a control character; allowed: text in one line")
-    values = []
-    for part in map(str.strip, text.split(",")):
-        if not part and "," in text:
-            raise ConfigError(f"{name}: {words.show(text)} has an empty part; allowed: values between commas")
-        try:
-            values.append(plain.value_of(part))
-        except ValueError as error:
-            raise ConfigError(f"{name}: {words.cut(part)} {error}") from None
-    return values if "," in text else values[0]

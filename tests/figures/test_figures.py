@@ -13,6 +13,7 @@ from subslide import catalogue
 from subslide.figures import _profiles, _slices, _style, _words
 from subslide.keys import schema
 from subslide.laboratory import lube as laboratory
+from subslide.tables.runs import UNTOLD
 
 NAMES = [name for name in catalogue.names("figures") if name.startswith("fig")]
 """Figures of collapses; those of verification are in test_verify.py."""
@@ -182,7 +183,7 @@ def test_slice_keeps_one_value_of_what_does_not_vary():
     assert "cells = 100" in chosen.notes[0]
 
 
-KEYS = [key for key in ("numerics", *schema.run_keys()) if key not in ("a_H", "r", "snapshot_times")]
+KEYS = [key for key in ("numerics", *schema.run_keys()) if key not in ("a_H", "r", *UNTOLD)]
 """Keys with a column in the table of runs that figures of collapses keep fixed."""
 SHOWN = {"numerics": "paper", "scene_options": "{}", "model": "radial", "fields": True}
 """Values that figures take, of the keys for which that is neither the default nor the largest."""

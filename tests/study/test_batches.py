@@ -168,3 +168,7 @@ def test_a_batch_file_is_a_regular_file(tmp_path):
     os.mkfifo(tmp_path / "b.json")
     with pytest.raises(ConfigError, match="a pipe"):
         batches.read_batch(tmp_path / "b.json")
+
+
+def test_nothing_to_solve_makes_no_batch():
+    assert batches.split([], batches.Sharing("all", 30.0, 2)) == []

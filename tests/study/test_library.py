@@ -42,7 +42,14 @@ def _no_caution_of_coarse_grids():
 
 
 @pytest.mark.parametrize(
-    "keys", [SHORT, {**SHORT, "r": 0}, {**SHORT, "grid": "fitted"}, {**SHORT, "delta": 0, "t_end": "rest"}]
+    "keys",
+    [
+        SHORT,
+        {**SHORT, "r": 0},
+        {**SHORT, "grid": "fitted"},
+        {**SHORT, "delta": 0, "t_end": "rest"},
+        {**SHORT, "gauges": [[0.1, 0.0], [0.2, 0.1]], "footprints": True},
+    ],
 )
 def test_the_data_set_of_a_run_is_that_of_its_record(keys, tmp_path):
     """To the bit, attributes and checksum included; also of one that fails."""
@@ -50,6 +57,12 @@ def test_the_data_set_of_a_run_is_that_of_its_record(keys, tmp_path):
     netcdf.write(tmp_path / "one.nc", [run])
     with xr.open_dataset(tmp_path / "one.nc") as data:
         xr.testing.assert_identical(one_run.dataset(run), data.squeeze("run").load())
+
+
+def test_a_data_set_shows_how_the_run_ended_first_and_its_main_parameters_last():
+    data = subslide.solve(**SHORT)
+    assert list(data.data_vars)[:3] == ["status", "status_detail", "L_f"]
+    assert list(data.coords)[-4:] == ["a_H", "a_2", "r", "delta"]
 
 
 def test_solve_gives_what_the_command_line_writes(tmp_path):

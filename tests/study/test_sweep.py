@@ -281,7 +281,7 @@ def test_results_show_their_axes_and_how_runs_ended(solve_study, make_run, write
     write_tables(Path("mine"))
     page = Results("mine")._repr_html_()
     assert "<td>1, 2 </td>" in page.replace(" style='text-align:left'", "")
-    assert "<div>2 ok</div><div>tables: runs.csv, series.csv, timing.csv</div>" in page
+    assert "<div>2 ok</div><div>tables: runs.csv, runs_varied.csv, series.csv, timing.csv</div>" in page
     assert repr(Results("nowhere")) == "Results('nowhere')"
     assert Results("nowhere")._repr_html_() is None
 

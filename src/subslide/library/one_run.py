@@ -12,8 +12,8 @@ from subslide import jobs
 from subslide.keys import schema
 from subslide.library import given
 from subslide.points import RUN_KEYS, Point
-from subslide.study import config
-from subslide.study import progress as shown
+from subslide.study import config, shown
+from subslide.study import progress as lines
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -57,7 +57,7 @@ def solve(
         If a key is unknown or a value is not allowed: a ValueError of one line, and nothing is solved.
     """
     point = _point(given.mapping(keys, "solve"))
-    show = shown.of_run(point) if progress is True else progress or None
+    show = lines.of_run(point) if progress is True else progress or None
     with at_work():
         run = jobs.solved(point, threads, show)
     return dataset(run)
@@ -120,6 +120,7 @@ def dataset(run: "Run") -> "xr.Dataset":
         told = {key: value for key, value in about.items() if key not in OF_FILES}
         held[name] = xr.Variable(rest, np.asarray(one, str if values.dtype.kind == "O" else None), told)
     coords = {name: held.pop(name) for name in tuple(held) if name in beside}
+    coords |= {name: coords.pop(name) for name in shown.MAIN}  # texts of a data set are cut in the middle
     return given.outcome_first(xr.Dataset(held, coords, attrs))
 
 

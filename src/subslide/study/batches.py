@@ -182,7 +182,7 @@ def split(points: Sequence[Point], sharing: Sharing = ALONE) -> list[list[Point]
         for places in _bins(group, costs[name], target, sharing):
             batches.append((sum(costs[name][n] for n in places), [group[n] for n in places]))
     batches.sort(key=lambda batch: -batch[0])
-    ends, end, seconds = [0.0] * sharing.cores, 0.0, 0.0
+    ends, seconds, end = [0.0] * sharing.cores, 0.0, 0.0
     for seconds, _ in batches:
         end = ends[0] + seconds
         heapq.heapreplace(ends, end)
