@@ -215,12 +215,12 @@ def test_what_a_fitted_run_lacks_is_empty_in_tables(study, boundary):
     assert results.record(ids[2])["h2"].dims == ("snapshot", "cell")
 
 
-def test_the_report_of_fitted_runs_leaves_waves_out(study):
-    page = report.text(study(a_H=[2]))
+def test_the_report_of_fitted_runs_leaves_waves_out(study, tmp_path):
+    page = report.text(study(a_H=[2]), tmp_path)
     assert "Final length L_f over R" in page
     assert "eta_gauge_peak</th>" not in page
     assert ">nan" not in page.lower()
-    assert "eta_gauge_peak</th>" in report.text(study(a_H=[1]))
+    assert "eta_gauge_peak</th>" in report.text(study(a_H=[1]), tmp_path)
 
 
 def test_the_line_on_a_fitted_run_names_its_grid_and_no_wave(make_run):

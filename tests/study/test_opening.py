@@ -14,6 +14,7 @@ from fitted import fitted
 
 import subslide
 from subslide import naming
+from subslide.checksums import seal
 from subslide.files import RecordError
 from subslide.keys.schema import ConfigError
 from subslide.points import Point
@@ -286,6 +287,20 @@ def test_a_damaged_record_is_told(mine, here):
     path = folder / "records/0002.nc"
     path.write_bytes(path.read_bytes()[:-1])
     with pytest.raises(RecordError, match=r"0002\.nc does not match its checksum"):
+        subslide.open_study(folder)
+
+
+def test_records_of_an_earlier_version_are_told(mine, here):
+    folder = copied(mine, here)
+    path = folder / "records/0001.nc"
+    with xr.open_dataset(path, decode_times=False) as record:
+        old = record.load().drop_vars("run")
+    path.unlink()
+    old.to_netcdf(path)
+    seal(path)
+    with pytest.raises(
+        RecordError, match=r"0001\.nc: the record is of another version; make the study again"
+    ):
         subslide.open_study(folder)
 
 
