@@ -8,6 +8,9 @@ from subslide.solver.loop import thresholds
 from subslide.solver.run import Run
 from subslide.study import choice
 
+SAME = 1e-9
+"""Share of a runout below which others are as large: directions that mirror each other differ by round-off."""
+
 
 def measured(run: Run, model: Model) -> dict[str, np.ndarray]:
     """Return the runout of a run in as many directions as it asks for, and what goes with it.
@@ -41,11 +44,12 @@ def measured(run: Run, model: Model) -> dict[str, np.ndarray]:
         if not quarter:
             centroid = np.array([h2.sum(axis=0) @ model.x, h2.sum(axis=1) @ model.x]) / h2.sum()
     reached = np.nan_to_num(runout, nan=-1.0)
-    farthest = reached.argmax(axis=1)
-    there = reached.max(axis=1) >= 0
+    largest = reached.max(axis=1)
+    there = largest >= 0
+    farthest = (reached >= largest[:, None] * (1 - SAME)).argmax(axis=1)
     values = (
         runout,
-        np.where(there, reached.max(axis=1), np.nan),
+        np.where(there, largest, np.nan),
         np.where(there, angles[farthest], np.nan),
         area * radius**2,
         *(centroid * radius),
