@@ -145,6 +145,8 @@ def test_a_folder_of_something_else_is_refused_and_left_alone():
     with pytest.raises(ConfigError, match=r"folder: .*papers holds .mine.tmp; allowed: a new folder"):
         subslide.sweep(folder="papers", **SHORT)
     assert [path.name for path in Path("papers").iterdir()] == [".mine.tmp"]
+    with pytest.raises(ConfigError, match="folder: / holds .*; allowed: a new folder"):
+        subslide.sweep(folder="/", **SHORT)
 
 
 @pytest.mark.long

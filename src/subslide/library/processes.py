@@ -58,7 +58,8 @@ def run(study: Study, folder: Path, cores: int, stream: TextIO | None) -> None:
     ConfigError
         If the folder cannot be one of a study, or somebody else is at work in it.
     """
-    folder, cache = Path(os.path.abspath(folder)), Path(os.path.abspath(folder)).parents[1] / ".snakemake"
+    folder = Path(os.path.abspath(folder))
+    cache = folder.parent.parent / ".snakemake"
     _check_content(folder)
     plan.check_folders(folder, cache / "subslide" / study.name)
     for name in ("records", "batches", "logs"):
