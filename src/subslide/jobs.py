@@ -18,7 +18,7 @@ from subslide.keys import schema, words
 from subslide.keys.schema import ConfigError
 from subslide.naming import FINISHED
 from subslide.points import Point
-from subslide.study import config, cost, option_texts, outputs, pace, progress, staging
+from subslide.study import config, cost, notes, option_texts, outputs, pace, progress, staging
 from subslide.study.batches import read_batch, spec_text
 from subslide.study.yaml_files import read_yaml
 
@@ -55,9 +55,8 @@ def point_of(path: str | None, options: dict[str, str]) -> Point:
     if isinstance(values.get("snapshot_times"), int | float):
         values["snapshot_times"] = [values["snapshot_times"]]
     point = config.make_point(values, names)
-    if values.get("bands"):
-        note = f"subslide: {path}: bands: true has no meaning for one run and is left out"
-        print(words.printable(note), file=sys.stderr)
+    for note in notes.left_out(values):
+        print(words.printable(f"subslide: {path}: {note}"), file=sys.stderr)
     return point
 
 

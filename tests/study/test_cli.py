@@ -116,10 +116,11 @@ def test_keys_of_a_study_are_checked_for_one_run_too(text, parts, capsys, write_
 
 
 def test_what_says_nothing_of_one_run_is_told(capsys, write_yaml):
-    write_yaml("study: t\nfigures: none\nbands: true\na_H: [2]", "point.yaml")
+    write_yaml("study: t\nfigures: none\nbands: true\nkeep: summary\na_H: [2]", "point.yaml")
     assert main(["run", *QUICK, "--config", "point.yaml", "-o", "x.nc"]) == 0
     assert capsys.readouterr().err == (
         "subslide: point.yaml: bands: true has no meaning for one run and is left out\n"
+        "subslide: point.yaml: keep: summary has no meaning for one run and is left out\n"
     )
     assert read("x.nc")[0]["a_H"].values == 2
 

@@ -1,5 +1,6 @@
 """Configurations: what is accepted, and that each mistake gives one line with key, value and what is allowed."""
 
+import itertools
 import re
 import time
 
@@ -290,6 +291,17 @@ def test_every_study_of_the_repository_is_valid(root):
 def test_generated_pages_are_current(root):
     for path, text in pages.generated().items():
         assert (root / path).read_text(encoding="utf-8") == text, f"run `make docs` to renew {path}"
+
+
+def test_rows_of_generated_tables_are_as_wide_as_their_heads():
+    for path, text in pages.generated().items():
+        rows = [line.replace("\\|", "") for line in text.splitlines() if re.match(r"\|[ -]", line)]
+        heads = [row for row, after in itertools.pairwise(rows) if set(after) <= set("|-")]
+        assert heads or path.endswith(".json")
+        width = 0
+        for row in rows:
+            width = row.count("|") if row in heads else width
+            assert row.count("|") == width, f"{path}: {row}"
 
 
 def test_every_figure_says_what_it_is():

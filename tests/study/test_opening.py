@@ -196,6 +196,17 @@ def test_keys_that_follow_from_others_are_no_axes_and_rest_is_at_infinity(solve,
     assert data["cells"].dims == ("numerics",)
 
 
+def test_by_axes_a_study_of_one_run_is_that_run(solve, here):
+    folder = solve(here, {"study": "t", "cells": 40, "t_end": 0.1}, a_H=2)
+    data = subslide.open_study(folder, by="axes", scaled_time=np.int64(5))
+    assert (data["L_f"].dims, data["x_front"].dims) == (
+        ("front_threshold",),
+        ("front_threshold", "scaled_time"),
+    )
+    assert (float(data["a_H"]), data["run"].shape, data.sizes["scaled_time"]) == (2, (), 5)
+    np.testing.assert_array_equal(data["h2"], subslide.open_study(folder)["h2"][0])
+
+
 def test_runs_with_and_without_gauges_on_one_grid_open_whole(solve, here):
     folder = solve(here, MINE, cases=[{"a_H": 1}, {"a_H": 2, "cells": 40, "gauges": [[0.1, 0]]}])
     solve(here, MINE, cases=[{"a_H": [1, 3]}, {"a_H": 2, "gauges": [[0.1, 0]]}])

@@ -116,6 +116,14 @@ def test_a_folder_is_a_study_that_the_workflow_carries_on():
     assert len(list(Path("results/mine/records").glob("*.nc"))) == 2
 
 
+def test_numbers_of_runs_whose_batch_was_lost_are_not_given_again():
+    values = {"folder": "results/mine", "progress": False, **SHORT}
+    subslide.sweep(a_H=[1, 2], **values)
+    subslide.sweep(a_H=[1, 2, 3], **values)
+    Path("results/mine/batches/0002.json").write_text("{")
+    assert subslide.sweep(a_H=[1, 2, 4], **values)["run"].values.tolist() == [1, 2, 4]
+
+
 @pytest.mark.parametrize(
     ("call", "said"),
     [
@@ -145,6 +153,8 @@ def test_a_folder_of_something_else_is_refused_and_left_alone():
     with pytest.raises(ConfigError, match=r"folder: .*papers holds .mine.tmp; allowed: a new folder"):
         subslide.sweep(folder="papers", **SHORT)
     assert [path.name for path in Path("papers").iterdir()] == [".mine.tmp"]
+    with pytest.raises(ConfigError, match="folder: / holds .*; allowed: a new folder"):
+        subslide.sweep(folder="/", **SHORT)
 
 
 @pytest.mark.long

@@ -12,7 +12,7 @@ from subslide import jobs
 from subslide.keys import schema
 from subslide.library import given
 from subslide.points import RUN_KEYS, Point
-from subslide.study import config, shown
+from subslide.study import config, notes, shown
 from subslide.study import progress as lines
 
 if TYPE_CHECKING:
@@ -68,9 +68,7 @@ def _point(values: dict[str, Any]) -> Point:
     if isinstance(values.get("snapshot_times"), int | float):
         values["snapshot_times"] = [values["snapshot_times"]]
     point = config.make_point(values)
-    given.warn(
-        [point], ["bands: true has no meaning for one run and is left out"] if values.get("bands") else []
-    )
+    given.warn([point], notes.left_out(values))
     return point
 
 

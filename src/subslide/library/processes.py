@@ -22,7 +22,7 @@ from subslide.files import Stopped, write_text
 from subslide.keys import words
 from subslide.keys.schema import ConfigError
 from subslide.library import given, one_run
-from subslide.study import locks, plan, progress, staging
+from subslide.study import locks, numbering, plan, progress, staging
 from subslide.study.config import Study
 
 LOOK = 0.05
@@ -58,7 +58,8 @@ def run(study: Study, folder: Path, cores: int, stream: TextIO | None) -> None:
     ConfigError
         If the folder cannot be one of a study, or somebody else is at work in it.
     """
-    folder, cache = Path(os.path.abspath(folder)), Path(os.path.abspath(folder)).parents[1] / ".snakemake"
+    folder = Path(os.path.abspath(folder))
+    cache = folder.parent.parent / ".snakemake"
     _check_content(folder)
     plan.check_folders(folder, cache / "subslide" / study.name)
     for name in ("records", "batches", "logs"):
@@ -66,6 +67,7 @@ def run(study: Study, folder: Path, cores: int, stream: TextIO | None) -> None:
     with _alone(folder), locks.alone(study.name, folder, cache, lambda line: given.warn([], [line])):
         planned = plan.plan(study, folder, cores)
         given.warn(study.points, planned.faults)
+        numbering.keep(folder, planned.next_run)
         with tempfile.TemporaryDirectory(prefix="subslide-") as home:
             staged = staging.stage(planned, Path(home), {}, ())
             staging.tidy(folder, staged, ())

@@ -2,6 +2,7 @@
 
 from subslide import catalogue, scenes
 from subslide.keys import schema, words
+from subslide.pages._rows import row
 
 PATH = "config/README.md"
 INTRODUCTION = """# Studies
@@ -68,8 +69,8 @@ What a study costs is estimated before it starts: `subslide check` says it, and 
 `max_core_hours`, `max_memory` or `max_disk` is refused until its file sets that key higher. A run to rest is taken to
 end when friction stops its grains, and a box to grow as far as they may go; a run whose step collapses takes longer.
 `subslide run` has these limits too, as keys of its file and as options. Of the other keys of a study it checks
-`study`, `figures` and `bands`, whose values say nothing of one run, says that `bands: true` is left out, and refuses
-`cases` and `design`.
+`study`, `figures`, `bands` and `keep`, whose values say nothing of one run, says that `bands: true`, or a `keep` that
+drops something, is left out, and refuses `cases` and `design`.
 
 `bands: true` solves each run on two coarser grids as well, and estimates from the three what the finest leaves
 uncertain; see `bands.csv` in docs/tables.md. Adding or removing it computes the coarser runs alone, or nothing. Runs on
@@ -116,7 +117,7 @@ def keys() -> str:
         default = words.show(about["default"]) if "default" in about else "needed"
         axis = "yes" if schema.is_axis(key) else ""
         entries = (f"`{key}`", about["description"], words.unit(key), default, words.allowed(key), axis)
-        rows.append("| " + " | ".join(entries) + " |")
+        rows.append(row(*entries))
     return "\n".join(rows) + "\n"
 
 
@@ -146,5 +147,5 @@ def scene(name: str) -> str:
             default,
             words.range_of(about),
         )
-        lines.append("| " + " | ".join(entries) + " |")
+        lines.append(row(*entries))
     return "\n".join(lines) + ("\n" if module.OPTIONS else "")

@@ -1,6 +1,7 @@
 """The page on records, docs/records.md: statuses, and every variable with its dimensions and unit."""
 
 from subslide import naming
+from subslide.pages._rows import row
 from subslide.records import scalars, thinning
 
 PATH = "docs/records.md"
@@ -91,7 +92,7 @@ def variables() -> str:
     for title, table in parts.items():
         lines += ["", f"## {title}", "", "| name | dimensions | unit | meaning |", "|---|---|---|---|"]
         lines += [
-            f"| `{name}` | {', '.join(field.dims)} | {field.unit} | {field.long_name} |"
+            row(f"`{name}`", ", ".join(field.dims), field.unit, field.long_name)
             for name, field in table.items()
         ]
     return "\n".join(lines) + "\n"

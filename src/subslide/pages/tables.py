@@ -1,6 +1,7 @@
 """The page on tables, docs/tables.md: what each table says of itself, and its columns."""
 
 from subslide import catalogue, tables
+from subslide.pages._rows import row
 
 PATH = "docs/tables.md"
 ORDER = (
@@ -36,5 +37,5 @@ def section(name: str) -> str:
     """Return the section (Markdown) on a table: its title, what it says of itself, and its columns."""
     lines = [f"## {name}.csv", "", tables.about(name), "", "| name | unit | meaning |", "|---|---|---|"]
     columns = tables.load(name).COLUMNS.items()
-    lines += [f"| `{column}` | {unit} | {meaning} |" for column, (unit, meaning) in columns]
+    lines += [row(f"`{column}`", unit, meaning) for column, (unit, meaning) in columns]
     return "\n".join(lines) + "\n"

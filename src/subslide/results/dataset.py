@@ -70,7 +70,7 @@ def open_study(folder: Path | str, by: str = "run", scaled_time: int | None = No
 
     if by not in BY:
         raise ConfigError(f"by: {words.show(by)} is not allowed; allowed: {', '.join(BY)}")
-    whole = isinstance(scaled_time, int) and not isinstance(scaled_time, bool) and scaled_time > 1
+    whole = isinstance(scaled_time, int | np.integer) and not isinstance(scaled_time, bool) and scaled_time > 1
     if scaled_time is not None and not whole:
         raise ConfigError(
             f"scaled_time: {words.show(scaled_time)} is not allowed; allowed: a whole number from 2, or None"
@@ -180,7 +180,7 @@ def _by_axes(data: "xr.Dataset", keys: tuple[str, ...]) -> "xr.Dataset":
         if name in (*keys, "scene_options"):
             made[name] = _along(values.reshape(shape), tuple(levels), variable.attrs)
         else:
-            made[name] = ((*levels, *rest), values.reshape(*shape, *values.shape[1:]), variable.attrs)
+            made[name] = ((*levels, *rest), values.reshape((*shape, *values.shape[1:])), variable.attrs)
     made |= {key: (key, known, data[key].attrs) for key, known in levels.items()}
     coords = {name: made.pop(name) for name in data.coords}
     return type(data)(made, coords, data.attrs)

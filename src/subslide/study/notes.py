@@ -4,8 +4,8 @@ Beside `cautions`, whose regions the stability atlas found unsafe. Imports no ke
 """
 
 import collections
-from collections.abc import Callable, Iterable
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, NamedTuple
 
 from subslide import catalogue
 from subslide.keys import words
@@ -173,3 +173,21 @@ def notes(points: Iterable[Point]) -> list[str]:
 def _who(count: int, points: list[Point]) -> str:
     """Return which of the points are spoken of, in words."""
     return f"{count} of {len(points)} runs" if len(points) > 1 else "this run"
+
+
+def left_out(values: Mapping[str, Any]) -> list[str]:
+    """Return a line for each key of a study that one run is given in vain.
+
+    Parameters
+    ----------
+    values
+        Values of the run, checked.
+
+    Returns
+    -------
+    list of str
+        Lines.
+    """
+    vain = ["bands: true"] * (values.get("bands") is True)
+    vain += [f"keep: {word}" for word in [values.get("keep", "all")] if word not in ("auto", "all")]
+    return [f"{what} has no meaning for one run and is left out" for what in vain]
