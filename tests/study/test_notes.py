@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 
 from subslide import naming
+from subslide.__main__ import main
 from subslide.kernels import viscosity
 from subslide.keys import words
 from subslide.keys.entries import ENTRIES
 from subslide.keys.values import default_of
 from subslide.points import Point
+from subslide.records.thinning import kept
 from subslide.solver import solve
 from subslide.study import config, notes
 
@@ -127,3 +129,35 @@ def test_a_sweep_says_it_once():
     for note in NOTES.values():
         text = f"subslide: caution, {note.name} (200000 of 200000 runs): {note.reason}. Choose {note.advice}."
         assert len(text) <= words.MOST
+
+
+@pytest.mark.parametrize(
+    ("keep", "asked", "advice"),
+    [
+        ("summary", "gauges", "series"),
+        ("summary", "fields and gauges", "all"),
+        ("series", "fields and footprints", "all"),
+        ("series", "", ""),
+        ("all", "", ""),
+    ],
+)
+def test_what_records_do_not_keep_is_said_and_so_it_is(keep, asked, advice):
+    keys = {"gauges": ((0.1, 0.0),), "fields": True, "footprints": True}
+    wanted = [key for key in keys if key in asked] or ["gauges"] * (keep != "summary")
+    point = Point(cells=20, t_end=0.02, model="quarter", **{key: keys[key] for key in wanted})
+    lines = notes.unkept([Point(), point], keep)
+    assert [line.split("asked for by ")[1] for line in lines] == [f"{asked}; keep: {advice} has it"] * bool(
+        asked
+    )
+    run = solve(point, profiles=keep == "all")
+    names = {"gauges": "gauge_h2", "footprints": "largest_h2_field"}
+    lost = [key for key, name in names.items() if key in wanted and name not in kept(run, keep).measured]
+    assert lost == [key for key in names if key in asked]
+
+
+def test_check_says_what_a_study_does_not_keep(write_yaml, capsys):
+    path = write_yaml("study: t\nkeep: summary\ngauges: [[0.1, 0]]\n")
+    assert main(["check", str(path)]) == 0
+    assert (
+        "keep: summary leaves out what is asked for by gauges; keep: series has it" in capsys.readouterr().err
+    )

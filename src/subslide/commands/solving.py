@@ -80,12 +80,12 @@ def run(config: str | None, threads: int, output: str, **options: Any) -> None:
     click.echo(jobs.run(point, threads, output))
 
 
-def caution(points: Iterable[Point]) -> None:
-    """Say on stderr, once of each unsafe region and note, that it fits some of the points."""
+def caution(points: Iterable[Point], more: Iterable[str] = ()) -> None:
+    """Say on stderr, once of each unsafe region and note, that it fits some of the points; and what more there is."""
     from subslide.study import cautions, notes
 
     points = list(points)
-    for line in (*cautions.cautions(points), *notes.notes(points)):
+    for line in (*cautions.cautions(points), *notes.notes(points), *more):
         click.echo(f"subslide: {line}", err=True)
 
 
@@ -93,7 +93,7 @@ def caution(points: Iterable[Point]) -> None:
 @click.argument("config", nargs=-1, required=True)
 def check(config: tuple[str, ...]) -> None:
     """Check study files, CONFIG..., and print one line for each, with cautions where runs lie in unsafe regions."""
-    from subslide.study import limits
+    from subslide.study import limits, notes
     from subslide.study.config import read_study
 
     for path in config:
@@ -104,7 +104,7 @@ def check(config: tuple[str, ...]) -> None:
             f"{path}: study '{study.name}', {len(study.runs)} runs{more}, {len(study.figures)} figures,"
             f" {limits.estimate(study.solved, study.keep).words()}"
         )
-        caution(study.points)
+        caution(study.points, notes.unkept(study.points, study.keep))
 
 
 @cli.command()

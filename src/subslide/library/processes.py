@@ -22,7 +22,7 @@ from subslide.files import Stopped, write_text
 from subslide.keys import words
 from subslide.keys.schema import ConfigError
 from subslide.library import given, one_run
-from subslide.study import locks, numbering, plan, progress, staging
+from subslide.study import locks, notes, numbering, plan, progress, staging
 from subslide.study.config import Study
 
 LOOK = 0.05
@@ -66,7 +66,7 @@ def run(study: Study, folder: Path, cores: int, stream: TextIO | None) -> None:
         (folder / name).mkdir(parents=True, exist_ok=True)
     with _alone(folder), locks.alone(study.name, folder, cache, lambda line: given.warn([], [line])):
         planned = plan.plan(study, folder, cores)
-        given.warn(study.points, planned.faults)
+        given.warn(study.points, [*planned.faults, *notes.unkept(study.points, study.keep)])
         numbering.keep(folder, planned.next_run)
         with tempfile.TemporaryDirectory(prefix="subslide-") as home:
             staged = staging.stage(planned, Path(home), {}, ())

@@ -191,3 +191,29 @@ def left_out(values: Mapping[str, Any]) -> list[str]:
     vain = ["bands: true"] * (values.get("bands") is True)
     vain += [f"keep: {word}" for word in [values.get("keep", "all")] if word not in ("auto", "all")]
     return [f"{what} has no meaning for one run and is left out" for what in vain]
+
+
+UNKEPT = {"summary": ("fields", "gauges", "footprints"), "series": ("fields", "footprints")}
+"""Keys whose quantities a record lacks, by what it keeps."""
+
+
+def unkept(points: Iterable[Point], keep: str) -> list[str]:
+    """Return a line if a study asks for quantities that its records do not keep.
+
+    Parameters
+    ----------
+    points
+        The runs.
+    keep
+        What is kept of each, one of `subslide.keys.kept.WORDS`.
+
+    Returns
+    -------
+    list of str
+        One line, or none.
+    """
+    lost = [key for key in UNKEPT.get(keep, ()) if any(getattr(point, key) for point in points)]
+    kept = "all" if {"fields", "footprints"} & {*lost} else "series"
+    return [f"keep: {keep} leaves out what is asked for by {' and '.join(lost)}; keep: {kept} has it"] * bool(
+        lost
+    )
