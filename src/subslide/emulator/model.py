@@ -14,8 +14,8 @@ from subslide.files import RecordError, write_text
 from subslide.keys.schema import ConfigError
 
 FORMAT = "subslide emulator 1"
-CHUNK = 128
-"""Points that are predicted at once: their kernel stays in the cache."""
+CHUNK = 80
+"""Points that are predicted at once: their kernel, of 1,536 columns at most, stays below a megabyte, in the cache."""
 
 Numbers = float | Sequence[float] | np.ndarray
 
