@@ -231,4 +231,4 @@ def test_entries_are_written_as_the_library_would():
     expected = io.StringIO()
     writer = csv.writer(expected, lineterminator="\n")
     writer.writerows([columns, *zip(*texts.values(), strict=True)])
-    assert "".join(_write.csv_parts(columns)) == expected.getvalue()
+    assert "".join(part for (part,) in _write.csv_parts(columns, [list(columns)])) == expected.getvalue()

@@ -1,5 +1,6 @@
 """From a table's module to its files: whole or not there, and the same bytes for the same results."""
 
+import contextlib
 import csv
 import io
 import re
@@ -84,12 +85,14 @@ def write(name: str, results: "Results") -> list[Path]:
         chosen = {paths[0].name: list(tables.columns(name, points))}
         chosen |= {file: pick(columns) for file, pick in getattr(module, "BESIDE", {}).items()}
         folder.mkdir(exist_ok=True)
-        for file_name, keys in chosen.items():
-            with (
-                replacing(folder / file_name) as temporary,
-                open(temporary, "w", encoding="utf-8", newline="") as file,
-            ):
-                file.writelines(csv_parts({key: columns[key] for key in keys}))
+        with contextlib.ExitStack() as stack:
+            temporaries = [stack.enter_context(replacing(folder / file)) for file in chosen]
+            written = [
+                stack.enter_context(open(path, "w", encoding="utf-8", newline="")) for path in temporaries
+            ]
+            for parts in csv_parts(columns, list(chosen.values())):
+                for file, part in zip(written, parts, strict=True):
+                    file.write(part)
     else:
         rows = module.table(results)
         rows = rows.to_dict("records") if hasattr(rows, "to_dict") else list(rows)
@@ -138,32 +141,40 @@ def csv_text(columns: Iterable[str], rows: list[dict], float_format: str = "") -
     str
         Lines that end in a line feed, the names first.
     """
-    return "".join(csv_parts({name: [row.get(name) for row in rows] for name in columns}, float_format))
+    entries = {name: [row.get(name) for row in rows] for name in columns}
+    return "".join(part for (part,) in csv_parts(entries, [list(entries)], float_format))
 
 
-def csv_parts(columns: Mapping[str, Sequence | np.ndarray], float_format: str = "") -> Iterator[str]:
-    """Give a table as CSV in parts of some lines.
+def csv_parts(
+    columns: Mapping[str, Sequence | np.ndarray], chosen: Sequence[Sequence[str]], float_format: str = ""
+) -> Iterator[tuple[str, ...]]:
+    """Give tables of some columns each as CSV in parts of some lines; each entry is made into text once.
 
     Parameters
     ----------
     columns
         Entries of each column by its name, equally many.
+    chosen
+        Names of the columns of each table.
     float_format
         As in `csv_text`.
 
     Yields
     ------
-    str
-        Lines that end in a line feed, the names first.
+    tuple of str
+        Of each table lines that end in a line feed, the names first.
     """
     number = float_format.__mod__ if float_format else repr
-    written = [_writer_of(entries, number) for entries in columns.values()]
-    count = max(map(len, columns.values()), default=0)
-    yield ",".join(map(_quoted, columns)) + "\n"
+    needed = dict.fromkeys(name for names in chosen for name in names)
+    written = {name: _writer_of(columns[name], number) for name in needed}
+    count = max((len(columns[name]) for name in needed), default=0)
+    yield tuple(",".join(map(_quoted, names)) + "\n" for names in chosen)
     for first in range(0, count, LINES):
-        part = slice(first, first + LINES)
-        lines = map(",".join, zip(*(write(part) for write in written), strict=True))
-        yield "\n".join(lines) + "\n"
+        texts = {name: list(write(slice(first, first + LINES))) for name, write in written.items()}
+        yield tuple(
+            "\n".join(map(",".join, zip(*(texts[name] for name in names), strict=True))) + "\n"
+            for names in chosen
+        )
 
 
 def _writer_of(
