@@ -12,6 +12,9 @@ ENTRY = {
 }
 """Entry of the key `keep`, but for its role."""
 
+LACKING = {"summary": ("fields", "gauges", "footprints"), "series": ("fields", "footprints"), "all": ()}
+"""Keys whose quantities a record lacks, by what it keeps."""
+
 
 def is_less(one: str, other: str) -> bool:
     """Return whether one word keeps less than another.

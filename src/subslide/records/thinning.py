@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from subslide import naming
+from subslide.keys.kept import LACKING
 from subslide.records import scalars
 
 if TYPE_CHECKING:
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
 LONGEST, HEAD = 10_000, 4_096
 """Most samples that a record keeps of a run, and how many of these are the run's first, one a step."""
 
+OF_KEY = {"gauges": naming.GAUGES, "footprints": naming.FOOTPRINTS}
+"""Quantities of `Run.measured` by the key that asks for them, of those that a record may lack."""
 
 SUMMARY = ("x_front", "max_abs_eta", "max_abs_eta_outside", "eta_gauge")
 """Series that a summary keeps, in single precision."""
@@ -59,7 +62,7 @@ def kept(run: "Run", keep: str) -> "Run":
     snapshots, none = len(run.snapshot_time), np.empty(0)
     short.x, short.h2, short.eta = none, np.empty((snapshots, 0)), np.empty((snapshots, 0))
     short.width = short.h2_diagonal = short.h2_field = short.eta_field = None
-    dropped = naming.FOOTPRINTS if keep == "series" else naming.FOOTPRINTS | naming.GAUGES
+    dropped = {name for key in LACKING[keep] for name in OF_KEY.get(key, ())}
     short.measured = {name: values for name, values in run.measured.items() if name not in dropped}
     return thinned(short) if keep == "series" else _summary(short)
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple
 
 from subslide import catalogue
-from subslide.keys import words
+from subslide.keys import kept, words
 from subslide.keys.entries import ENTRIES
 from subslide.keys.values import default_of
 from subslide.points import Point
@@ -193,10 +193,6 @@ def left_out(values: Mapping[str, Any]) -> list[str]:
     return [f"{what} has no meaning for one run and is left out" for what in vain]
 
 
-UNKEPT = {"summary": ("fields", "gauges", "footprints"), "series": ("fields", "footprints")}
-"""Keys whose quantities a record lacks, by what it keeps."""
-
-
 def unkept(points: Iterable[Point], keep: str) -> list[str]:
     """Return a line if a study asks for quantities that its records do not keep.
 
@@ -212,8 +208,7 @@ def unkept(points: Iterable[Point], keep: str) -> list[str]:
     list of str
         One line, or none.
     """
-    lost = [key for key in UNKEPT.get(keep, ()) if any(getattr(point, key) for point in points)]
-    kept = "all" if {"fields", "footprints"} & {*lost} else "series"
-    return [f"keep: {keep} leaves out what is asked for by {' and '.join(lost)}; keep: {kept} has it"] * bool(
-        lost
-    )
+    lost = [key for key in kept.LACKING[keep] if any(getattr(point, key) for point in points)]
+    enough = next(word for word in kept.WORDS if not {*kept.LACKING[word]} & {*lost})
+    line = f"keep: {keep} leaves out what is asked for by {' and '.join(lost)}; keep: {enough} has it"
+    return [line] if lost else []
