@@ -1,6 +1,5 @@
 """Verbs that tell what a study would do, and clear away what it needs no more."""
 
-import os
 from pathlib import Path
 
 import click
@@ -28,10 +27,10 @@ def _study(config: str) -> tuple[Study, Path, Path]:
 )
 def plan(config: str, cores: int | None) -> None:
     """Print what the study CONFIG would solve here: points, batches, seconds, memory and disk; write nothing."""
-    from subslide.study import outlook
+    from subslide.study import limits, outlook
 
     study, results, _ = _study(config)
-    for line in outlook.lines(study, results, cores or len(os.sched_getaffinity(0))):
+    for line in outlook.lines(study, results, cores or limits.usable_cores()):
         click.echo(line)
 
 

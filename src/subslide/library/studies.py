@@ -248,7 +248,7 @@ def cores_of(cores: int | None) -> int:
         If it is no whole number from 1.
     """
     if cores is None:
-        return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        return limits.usable_cores()
     whole = given.plain(cores)
     if not isinstance(whole, int) or isinstance(whole, bool) or whole < 1:
         raise ConfigError(f"cores: {whole} is not allowed; allowed: a whole number from 1")

@@ -1,5 +1,6 @@
 """What a study costs as a whole, told before it is solved, and held to the limits that its keys set."""
 
+import os
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
@@ -101,3 +102,8 @@ def check(points: Iterable[Point], limits: Mapping[str, float], what: str, keep:
 def _rounded(number: float) -> str:
     """Return a number to three digits, without an exponent and with commas."""
     return f"{float(f'{number:.3g}'):,g}" if number < 1e6 else f"{float(f'{number:.3g}'):,.0f}"
+
+
+def usable_cores() -> int:
+    """Return how many cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
